@@ -35,6 +35,7 @@ endif()
 if(PETSC_VERSION VERSION_LESS 3.18)
   message(FATAL_ERROR "PETSc ${PETSC_VERSION} found, but cdem needs 3.18 or later")
 endif()
+set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_COMPILE_OPTIONS "") # Debian's hardening flags are its own
 
 # HDF5 must be the MPI one, of the same MPI; its C interface is enough.
 pkg_search_module(HDF5_MPI QUIET IMPORTED_TARGET hdf5-openmpi hdf5-mpi)
