@@ -1,0 +1,214 @@
+#include "io/vtk_series.hpp"
+
+#include "io/hdf5_file.hpp"
+#include "io/safe_file.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace cdem {
+
+namespace {
+
+// Rows that a rank gives, in any order, to contiguous blocks of the global numbers.
+PetscErrorCode CreateBlocks(MPI_Comm comm, const std::vector<std::int64_t>& numbers, const char* what, PetscSF* sf,
+                            Hdf5Block* block) {
+  PetscFunctionBeginUser;
+  const std::int64_t n = static_cast<std::int64_t>(numbers.size());
+  std::int64_t total;
+  PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPI_INT64_T, MPI_SUM, comm));
+  CdemCheck(total <= PETSC_INT_MAX, comm, "%lld %s are too many for a PETSc with 32-bit integers",
+            static_cast<long long>(total), what);
+  PetscLayout layout;
+  PetscInt begin, end;
+  PetscCall(PetscLayoutCreateFromSizes(comm, PETSC_DECIDE, static_cast<PetscInt>(total), 1, &layout));
+  PetscCall(PetscLayoutGetRange(layout, &begin, &end));
+  *block = {static_cast<hsize_t>(total), static_cast<hsize_t>(begin), static_cast<hsize_t>(end - begin)};
+
+  const bool good = std::all_of(numbers.begin(), numbers.end(), [&](std::int64_t i) { return i >= 0 && i < total; });
+  int bad = !good, any_bad;
+  std::vector<PetscSFNode> roots(numbers.size());
+  for (std::size_t i = 0; good && i < numbers.size(); ++i) {
+    PetscMPIInt owner;
+    PetscCall(PetscLayoutFindOwnerIndex(layout, static_cast<PetscInt>(numbers[i]), &owner, &roots[i].index));
+    roots[i].rank = owner;
+  }
+  PetscCall(PetscLayoutDestroy(&layout));
+  PetscCallMPI(MPI_Allreduce(&bad, &any_bad, 1, MPI_INT, MPI_MAX, comm));
+  PetscCheck(!any_bad, comm, PETSC_ERR_PLIB, "global numbers of %s are not within 0 and their count", what);
+  PetscCall(PetscSFDestroy(sf));
+  PetscCall(PetscSFCreate(comm, sf));
+  PetscCall(PetscSFSetGraph(*sf, end - begin, static_cast<PetscInt>(n), nullptr, PETSC_COPY_VALUES, roots.data(),
+                            PETSC_COPY_VALUES));
+  const PetscInt* degree;
+  PetscCall(PetscSFComputeDegreeBegin(*sf, &degree));
+  PetscCall(PetscSFComputeDegreeEnd(*sf, &degree));
+  bad = !std::all_of(degree, degree + (end - begin), [](PetscInt d) { return d == 1; });
+  PetscCallMPI(MPI_Allreduce(&bad, &any_bad, 1, MPI_INT, MPI_MAX, comm));
+  PetscCheck(!any_bad, comm, PETSC_ERR_PLIB, "global numbers of %s are not given once each", what);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+template <class T>
+PetscErrorCode ToBlock(PetscSF sf, MPI_Datatype type, int width, const T* rows, std::vector<T>* block) {
+  PetscFunctionBeginUser;
+  MPI_Datatype unit;
+  PetscCallMPI(MPI_Type_contiguous(width, type, &unit));
+  PetscCallMPI(MPI_Type_commit(&unit));
+  PetscCall(PetscSFReduceBegin(sf, unit, rows, block->data(), MPI_REPLACE));
+  PetscCall(PetscSFReduceEnd(sf, unit, rows, block->data(), MPI_REPLACE));
+  PetscCallMPI(MPI_Type_free(&unit));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const char* const kMeshSets[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points", "Connectivity",
+                                 "Offsets",        "Types"};
+
+std::string MeshName(const std::string& name) { return name + "_mesh_000.h5"; }
+
+// The attributes by which VTK knows the file.
+void Describe(Hdf5File* file) {
+  file->Integers("Version", {1, 0});
+  file->Word("Type", "UnstructuredGrid");
+}
+
+}  // namespace
+
+VtkSeries::~VtkSeries() {
+  PetscBool finalized = PETSC_FALSE;
+  (void)PetscFinalized(&finalized);
+  if (finalized) return;
+  (void)PetscSFDestroy(&point_sf_);
+  (void)PetscSFDestroy(&cell_sf_);
+}
+
+PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string& dir, const std::string& name, const VtkMesh& mesh) {
+  PetscFunctionBeginUser;
+  comm_ = comm;
+  dir_ = dir;
+  name_ = name;
+  frames_.clear();
+  Hdf5Block points, cells;
+  PetscCall(CreateBlocks(comm, mesh.point_global, "points", &point_sf_, &points));
+  PetscCall(CreateBlocks(comm, mesh.cell_global, "cells", &cell_sf_, &cells));
+  n_points_ = static_cast<PetscInt>(mesh.point_global.size());
+  n_cells_ = static_cast<PetscInt>(mesh.cell_global.size());
+  points_total_ = static_cast<std::int64_t>(points.total);
+  cells_total_ = static_cast<std::int64_t>(cells.total);
+  point_offset_ = static_cast<std::int64_t>(points.offset);
+  cell_offset_ = static_cast<std::int64_t>(cells.offset);
+  point_rows_ = static_cast<PetscInt>(points.rows);
+  cell_rows_ = static_cast<PetscInt>(cells.rows);
+
+  std::vector<double> coordinates(3 * points.rows);
+  PetscCall(ToBlock(point_sf_, MPI_DOUBLE, 3, mesh.points.data(), &coordinates));
+
+  // Cells travel with a fixed width: type, number of points, points.
+  int most = 0, width;
+  for (std::size_t c = 0; c < mesh.cell_global.size(); ++c)
+    most = std::max(most, mesh.cell_start[c + 1] - mesh.cell_start[c]);
+  PetscCallMPI(MPI_Allreduce(&most, &width, 1, MPI_INT, MPI_MAX, comm));
+  width += 2;
+  std::vector<std::int64_t> rows(mesh.cell_global.size() * static_cast<std::size_t>(width));
+  for (std::size_t c = 0; c < mesh.cell_global.size(); ++c) {
+    std::int64_t* row = &rows[c * static_cast<std::size_t>(width)];
+    row[0] = mesh.cell_type[c];
+    row[1] = mesh.cell_start[c + 1] - mesh.cell_start[c];
+    std::copy(mesh.cell_points.data() + mesh.cell_start[c], mesh.cell_points.data() + mesh.cell_start[c + 1], row + 2);
+  }
+  std::vector<std::int64_t> block(cells.rows * static_cast<std::size_t>(width));
+  PetscCall(ToBlock(cell_sf_, MPI_INT64_T, width, rows.data(), &block));
+  std::vector<std::int64_t>().swap(rows);
+
+  std::vector<std::uint8_t> types(cells.rows);
+  std::vector<std::int64_t> ends(cells.rows), connectivity;
+  std::int64_t outside = 0;
+  for (std::size_t c = 0; c < cells.rows; ++c) {
+    const std::int64_t* row = &block[c * static_cast<std::size_t>(width)];
+    types[c] = static_cast<std::uint8_t>(row[0]);
+    connectivity.insert(connectivity.end(), row + 2, row + 2 + row[1]);
+    ends[c] = static_cast<std::int64_t>(connectivity.size());
+  }
+  for (const std::int64_t p : connectivity) outside += p < 0 || p >= points_total_;
+  const std::int64_t mine[2] = {static_cast<std::int64_t>(connectivity.size()), outside};
+  std::int64_t before[2] = {0, 0}, total[2];
+  int rank;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Exscan(mine, before, 2, MPI_INT64_T, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(mine, total, 2, MPI_INT64_T, MPI_SUM, comm));
+  PetscCheck(total[1] == 0, comm, PETSC_ERR_PLIB, "cells of a mesh for output name points that it does not have");
+  if (rank == 0) before[0] = 0;  // Exscan leaves it undefined
+  for (std::int64_t& end : ends) end += before[0];
+  Hdf5Block ids = {static_cast<hsize_t>(total[0]), static_cast<hsize_t>(before[0]), connectivity.size()};
+  Hdf5Block offsets = {cells.total + 1, cells.offset + 1, cells.rows};
+  if (rank == 0) {  // the leading 0 of the offsets
+    ends.insert(ends.begin(), 0);
+    offsets.offset = 0;
+    ++offsets.rows;
+  }
+
+  Hdf5File file(comm, dir_ + "/" + MeshName(name_) + ".part");
+  PetscCall(file.Open("VTKHDF", 24 * points_total_ + 8 * total[0] + 9 * cells_total_));
+  Describe(&file);
+  const Hdf5Block one = {1, 0, rank == 0 ? 1u : 0u};
+  const hid_t top = file.top(), i64 = H5T_STD_I64LE, n64 = H5T_NATIVE_INT64;
+  PetscCall(file.Write(top, "NumberOfPoints", i64, n64, one, 0, &points_total_));
+  PetscCall(file.Write(top, "NumberOfCells", i64, n64, one, 0, &cells_total_));
+  PetscCall(file.Write(top, "NumberOfConnectivityIds", i64, n64, one, 0, &total[0]));
+  PetscCall(file.Write(top, "Points", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, points, 3, coordinates.data()));
+  PetscCall(file.Write(top, "Connectivity", i64, n64, ids, 0, connectivity.data()));
+  PetscCall(file.Write(top, "Offsets", i64, n64, offsets, 0, ends.data()));
+  PetscCall(file.Write(top, "Types", H5T_STD_U8LE, H5T_NATIVE_UINT8, cells, 0, types.data()));
+  PetscCall(file.Finish(dir_ + "/" + MeshName(name_)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vector<VtkField>& fields) {
+  PetscFunctionBeginUser;
+  PetscCheck(point_sf_, PETSC_COMM_SELF, PETSC_ERR_ORDER, "a frame before its mesh");
+  int rank;
+  PetscCallMPI(MPI_Comm_rank(comm_, &rank));
+  char number[32];
+  std::snprintf(number, sizeof(number), "_%06zu.hdf", frames_.size());
+  const std::string frame = name_ + number;
+
+  std::int64_t numbers = 0;
+  for (const VtkField& field : fields) numbers += field.components * (field.on_points ? points_total_ : cells_total_);
+  Hdf5File file(comm_, dir_ + "/" + frame + ".part");
+  PetscCall(file.Open("VTKHDF", 8 * numbers));
+  Describe(&file);
+  for (const char* name : kMeshSets) file.Link(name, MeshName(name_), std::string("/VTKHDF/") + name);
+  const Hdf5Block one = {1, 0, rank == 0 ? 1u : 0u};
+  const std::int64_t steps = step;
+  const hid_t own = file.Group("FieldData");
+  PetscCall(file.Write(own, "Step", H5T_STD_I64LE, H5T_NATIVE_INT64, one, 0, &steps));
+  PetscCall(file.Write(own, "Time", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, one, 0, &time));
+  const hid_t on_points = file.Group("PointData"), on_cells = file.Group("CellData");
+  const Hdf5Block points = {static_cast<hsize_t>(points_total_), static_cast<hsize_t>(point_offset_),
+                            static_cast<hsize_t>(point_rows_)};
+  const Hdf5Block cells = {static_cast<hsize_t>(cells_total_), static_cast<hsize_t>(cell_offset_),
+                           static_cast<hsize_t>(cell_rows_)};
+  std::vector<double> values;
+  for (const VtkField& field : fields) {
+    const Hdf5Block& block = field.on_points ? points : cells;
+    values.resize(block.rows * static_cast<std::size_t>(field.components));
+    PetscCall(ToBlock(field.on_points ? point_sf_ : cell_sf_, MPI_DOUBLE, field.components, field.data, &values));
+    PetscCall(file.Write(field.on_points ? on_points : on_cells, field.name.c_str(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+                         block, field.components > 1 ? field.components : 0, values.data()));
+  }
+  PetscCall(file.Finish(dir_ + "/" + frame));
+
+  frames_.emplace_back(frame, time);
+  std::string failure;
+  if (rank == 0) {
+    std::string list;
+    for (const auto& [file_name, at] : frames_)
+      list += (list.empty() ? "" : ",") + ("\n" + nlohmann::ordered_json{{"name", file_name}, {"time", at}}.dump());
+    failure = ReplaceFile(dir_ + "/" + name_ + ".hdf.series",
+                          "{\"file-series-version\": \"1.0\", \"files\": [" + list + "\n]}\n");
+  }
+  PetscCall(CheckFailure(comm_, failure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem
