@@ -1,0 +1,46 @@
+"""Shared by the check.py of every example: reads an output folder, prints a table, sets the exit code. numpy only."""
+import json
+import os
+import sys
+
+import numpy as np
+
+
+def folder():
+    """The output folder named on the command line."""
+    if len(sys.argv) != 2:
+        sys.exit(f"usage: {sys.argv[0]} OUTPUT_FOLDER")
+    return sys.argv[1]
+
+
+def histories(out):
+    """histories.csv as a record array: h["step"], h["time"], h[NAME]."""
+    return np.genfromtxt(os.path.join(out, "histories.csv"), delimiter=",", names=True)
+
+
+def summary(out):
+    """summary.json as a dictionary."""
+    with open(os.path.join(out, "summary.json")) as f:
+        return json.load(f)
+
+
+def ricker(t, frequency, delay):
+    a = (np.pi * frequency * (t - delay)) ** 2
+    return (1 - 2 * a) * np.exp(-a)
+
+
+def report(rows):
+    """Prints rows (quantity, exact, computed, tolerance[, scale]) as a table and exits with 1 when one is outside.
+
+    The error is |computed - exact| / scale; scale is |exact| unless it is given."""
+    good = True
+    print("| quantity | exact | computed | relative error | tolerance |")
+    print("|---|---|---|---|---|")
+    for name, exact, computed, tolerance, *scale in rows:
+        error = abs(computed - exact) / (scale[0] if scale else abs(exact))
+        inside = bool(error <= tolerance)  # false for nan
+        good = good and inside
+        mark = "" if inside else " **outside**"
+        print(f"| {name} | {exact:.7g} | {computed:.7g} | {error:.1e}{mark} | {tolerance:.0e} |")
+    print("passed" if good else "FAILED")
+    sys.exit(0 if good else 1)
