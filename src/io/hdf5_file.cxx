@@ -11,7 +11,7 @@ namespace cdem {
 
 namespace {
 
-std::string SpaceLeft(const std::string& path) {
+std::string SpaceLeft(const std::string &path) {
   std::error_code code;
   const auto space = std::filesystem::space(path, code);
   return code ? "" : " (" + std::to_string(space.available >> 20) + " MB are left there)";
@@ -19,7 +19,7 @@ std::string SpaceLeft(const std::string& path) {
 
 // Asks the file system for the room before anything is written; the text of the failure, or "". A full disk met later,
 // inside MPI-IO, gives no reason and can leave ranks waiting for each other.
-std::string Reserve(const std::string& path, std::int64_t bytes) {
+std::string Reserve(const std::string &path, std::int64_t bytes) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT, 0666);
   if (file < 0) return "cannot write " + path + ": " + std::strerror(errno);
   int code = fallocate(file, FALLOC_FL_KEEP_SIZE, 0, bytes) == 0 ? 0 : errno;
@@ -55,8 +55,8 @@ template <class T>
 T Hdf5File::Keep(T result) {
   if (result >= 0 || !failure_.empty()) return result;
   failure_ = "cannot write " + path_ + ": ";
-  const H5E_walk2_t innermost = [](unsigned n, const H5E_error2_t* error, void* text) -> herr_t {
-    if (n == 0 && error->desc) *static_cast<std::string*>(text) += error->desc;
+  const H5E_walk2_t innermost = [](unsigned n, const H5E_error2_t *error, void *text) -> herr_t {
+    if (n == 0 && error->desc) *static_cast<std::string *>(text) += error->desc;
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, innermost, &failure_);
@@ -66,7 +66,7 @@ T Hdf5File::Keep(T result) {
 
 PetscErrorCode Hdf5File::Check() { return CheckFailure(comm_, failure_); }
 
-PetscErrorCode Hdf5File::Open(const char* top, std::int64_t bytes) {
+PetscErrorCode Hdf5File::Open(const char *top, std::int64_t bytes) {
   PetscFunctionBeginUser;
   bytes += 65536;  // HDF5's own
   if (rank_ == 0) {
@@ -92,24 +92,24 @@ PetscErrorCode Hdf5File::Open(const char* top, std::int64_t bytes) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-hid_t Hdf5File::Group(const char* name) {
+hid_t Hdf5File::Group(const char *name) {
   groups_.push_back(Keep(H5Gcreate2(top_, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)));
   return groups_.back();
 }
 
-void Hdf5File::PutAttribute(const char* name, hid_t type, hid_t memory, hid_t space, const void* data) {
+void Hdf5File::PutAttribute(const char *name, hid_t type, hid_t memory, hid_t space, const void *data) {
   const hid_t attribute = Keep(H5Acreate2(top_, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
   Keep(H5Awrite(attribute, memory, data));
   Keep(H5Aclose(attribute));
   H5Sclose(space);
 }
 
-void Hdf5File::Integers(const char* name, const std::vector<std::int64_t>& values) {
+void Hdf5File::Integers(const char *name, const std::vector<std::int64_t> &values) {
   const hsize_t size = values.size();
   PutAttribute(name, H5T_STD_I64LE, H5T_NATIVE_INT64, H5Screate_simple(1, &size, nullptr), values.data());
 }
 
-void Hdf5File::Word(const char* name, const std::string& word) {
+void Hdf5File::Word(const char *name, const std::string &word) {
   const hid_t type = Keep(H5Tcopy(H5T_C_S1));
   Keep(H5Tset_size(type, word.size()));
   Keep(H5Tset_strpad(type, H5T_STR_NULLPAD));
@@ -117,12 +117,12 @@ void Hdf5File::Word(const char* name, const std::string& word) {
   H5Tclose(type);
 }
 
-void Hdf5File::Link(const char* name, const std::string& file, const std::string& target) {
+void Hdf5File::Link(const char *name, const std::string &file, const std::string &target) {
   Keep(H5Lcreate_external(file.c_str(), target.c_str(), top_, name, H5P_DEFAULT, H5P_DEFAULT));
 }
 
-PetscErrorCode Hdf5File::Write(hid_t group, const char* name, hid_t type, hid_t memory, const Hdf5Block& block,
-                               int components, const void* data) {
+PetscErrorCode Hdf5File::Write(hid_t group, const char *name, hid_t type, hid_t memory, const Hdf5Block &block,
+                               int components, const void *data) {
   PetscFunctionBeginUser;
   const int dimensions = components > 0 ? 2 : 1;
   const hsize_t width = static_cast<hsize_t>(components), row = H5Tget_size(memory) * std::max<hsize_t>(width, 1);
@@ -135,7 +135,7 @@ PetscErrorCode Hdf5File::Write(hid_t group, const char* name, hid_t type, hid_t 
     const hsize_t start[2] = {block.offset + done, 0}, count[2] = {std::min(most, block.rows - done), width};
     const hid_t here = Keep(H5Screate_simple(dimensions, count, nullptr));
     Keep(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr));
-    Keep(H5Dwrite(set, memory, here, space, transfer_, static_cast<const char*>(data) + done * row));
+    Keep(H5Dwrite(set, memory, here, space, transfer_, static_cast<const char *>(data) + done * row));
     H5Sclose(here);
   }
   H5Sclose(space);
@@ -146,7 +146,7 @@ PetscErrorCode Hdf5File::Write(hid_t group, const char* name, hid_t type, hid_t 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Hdf5File::Finish(const std::string& name) {
+PetscErrorCode Hdf5File::Finish(const std::string &name) {
   PetscFunctionBeginUser;
   Close();
   if (rank_ == 0) {

@@ -21,30 +21,30 @@ class Hdf5File {
   /// Silences HDF5's own printing while it lives. path is the temporary name.
   Hdf5File(MPI_Comm comm, std::string path);
   ~Hdf5File();
-  Hdf5File(const Hdf5File&) = delete;
-  Hdf5File& operator=(const Hdf5File&) = delete;
+  Hdf5File(const Hdf5File &) = delete;
+  Hdf5File &operator=(const Hdf5File &) = delete;
 
   /// Creates the file with its top group. bytes: of all the data to come, refused here when there is no room for them.
-  PetscErrorCode Open(const char* top, std::int64_t bytes);
+  PetscErrorCode Open(const char *top, std::int64_t bytes);
   /// The top group, and a new group in it.
   hid_t top() const { return top_; }
-  hid_t Group(const char* name);
+  hid_t Group(const char *name);
   /// Attributes of the top group: a vector of integers (int64), a word (fixed length, ASCII).
-  void Integers(const char* name, const std::vector<std::int64_t>& values);
-  void Word(const char* name, const std::string& word);
+  void Integers(const char *name, const std::vector<std::int64_t> &values);
+  void Word(const char *name, const std::string &word);
   /// Makes name in the top group stand for target of another file, named relative to this one.
-  void Link(const char* name, const std::string& file, const std::string& target);
+  void Link(const char *name, const std::string &file, const std::string &target);
   /// A dataset [total][components], or [total] where components is 0; type in the file, memory that of data (host).
-  PetscErrorCode Write(hid_t group, const char* name, hid_t type, hid_t memory, const Hdf5Block& block, int components,
-                       const void* data);
+  PetscErrorCode Write(hid_t group, const char *name, hid_t type, hid_t memory, const Hdf5Block &block, int components,
+                       const void *data);
   /// Closes the file and gives it its name: from now on it counts as written.
-  PetscErrorCode Finish(const std::string& name);
+  PetscErrorCode Finish(const std::string &name);
 
  private:
   template <class T>
   T Keep(T result);
   PetscErrorCode Check();
-  void PutAttribute(const char* name, hid_t type, hid_t memory, hid_t space, const void* data);
+  void PutAttribute(const char *name, hid_t type, hid_t memory, hid_t space, const void *data);
   void Close();
 
   MPI_Comm comm_;
@@ -54,7 +54,7 @@ class Hdf5File {
   hid_t file_ = -1, top_ = -1, transfer_ = -1, dataset_ = -1;
   std::vector<hid_t> groups_;
   H5E_auto2_t printer_ = nullptr;
-  void* printer_data_ = nullptr;
+  void *printer_data_ = nullptr;
 };
 
 }  // namespace cdem

@@ -16,12 +16,12 @@ namespace {
 
 using Text = std::string;
 
-bool EndsWith(const Text& name, const Text& end) {
+bool EndsWith(const Text &name, const Text &end) {
   return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
 }
 
 // What stands between the last mark in name and its end, when all of it is digits.
-bool HasNumber(const Text& name, const Text& mark, const Text& end) {
+bool HasNumber(const Text &name, const Text &mark, const Text &end) {
   if (!EndsWith(name, end)) return false;
   const Text stem = name.substr(0, name.size() - end.size());
   const std::size_t at = stem.rfind(mark);
@@ -31,20 +31,20 @@ bool HasNumber(const Text& name, const Text& mark, const Text& end) {
 }
 
 // Files that only a run writes; a file of the user's (terrain.hdf, rock_mesh_fine.h5) is none of them.
-bool IsResult(const Text& name) {
+bool IsResult(const Text &name) {
   return name == "summary.json" || name == "histories.csv" || EndsWith(name, ".hdf.series") ||
          HasNumber(name, "_", ".hdf") || HasNumber(name, "_mesh_", ".h5") ||
          (name.rfind("checkpoint_", 0) == 0 && HasNumber(name, "_", ".h5"));
 }
 
-bool IsLeftover(const Text& name) {
+bool IsLeftover(const Text &name) {
   if (!EndsWith(name, ".part")) return false;
   const Text whole = name.substr(0, name.size() - 5);
   return IsResult(whole) || whole == "scene.opts";
 }
 
 // Makes dir or empties it of what an earlier run wrote; the text of the failure, or "".
-Text MakeDir(const Text& dir, bool overwrite) {
+Text MakeDir(const Text &dir, bool overwrite) {
   std::error_code code;
   fs::create_directories(dir, code);
   if (code) return "cannot make the output folder " + dir + ": " + code.message();
@@ -64,7 +64,7 @@ Text MakeDir(const Text& dir, bool overwrite) {
     return "the output folder " + dir + " holds the results of an earlier run (" +
            std::min_element(old.begin(), old.end())->filename().string() +
            "); give another -output, or -output_overwrite to remove them";
-  for (const fs::path& path : old) {
+  for (const fs::path &path : old) {
     fs::remove(path, code);
     if (code) return "cannot remove " + path.string() + ": " + code.message();
   }
@@ -73,13 +73,13 @@ Text MakeDir(const Text& dir, bool overwrite) {
 
 // One line of a PETSc options file. Its quotes have no escapes, '#' begins a comment even between them, and a value
 // that looks like an option is refused: such a value becomes a comment.
-Text OptionLine(const Text& name, const Text& value, bool has_value) {
+Text OptionLine(const Text &name, const Text &value, bool has_value) {
   if (!has_value) return "-" + name + "\n";
   PetscBool key = PETSC_FALSE;
   (void)PetscOptionsValidKey(value.c_str(), &key);
   if (key || value.find_first_of("\"#\t\r\n") != Text::npos) {
     Text shown = value;
-    for (char& c : shown)
+    for (char &c : shown)
       if (c == '\n' || c == '\r') c = ' ';
     return "# no options file can hold this value: -" + name + " " + shown + "\n";
   }
@@ -89,12 +89,12 @@ Text OptionLine(const Text& name, const Text& value, bool has_value) {
 
 // All options of the database, sorted as PETSc keeps them. PETSc gives them only as one string without quotes; the
 // exact values come from two other calls that, unlike PetscOptionsFindPair alone, leave unread options unread.
-PetscErrorCode AllOptions(Text* lines) {
+PetscErrorCode AllOptions(Text *lines) {
   PetscFunctionBeginUser;
   PetscInt n_left = 0;
   char **names = nullptr, **values = nullptr, *all = nullptr;
   PetscCall(PetscOptionsLeftGet(nullptr, &n_left, &names, &values));
-  std::map<Text, const char*> left;
+  std::map<Text, const char *> left;
   for (PetscInt i = 0; i < n_left; ++i) left[names[i]] = values[i];
   PetscCall(PetscOptionsGetAll(nullptr, &all));
   const Text text = all;
@@ -102,7 +102,7 @@ PetscErrorCode AllOptions(Text* lines) {
   for (std::size_t at = 0; at < text.size() && text[at] == '-';) {  // "-name " or "-name value "
     const std::size_t space = std::min(text.find(' ', at), text.size());
     const Text name = text.substr(at + 1, space - at - 1);
-    const char* value = nullptr;
+    const char *value = nullptr;
     PetscBool used = PETSC_FALSE, set = PETSC_FALSE;
     const auto unread = left.find(name);
     PetscCall(PetscOptionsUsed(nullptr, name.c_str(), &used));
@@ -136,14 +136,14 @@ PetscErrorCode AllOptions(Text* lines) {
 
 }  // namespace
 
-PetscErrorCode WriteFileSafely(const std::string& path, const std::string& text) {
+PetscErrorCode WriteFileSafely(const std::string &path, const std::string &text) {
   PetscFunctionBeginUser;
   const std::string failure = ReplaceFile(path, text);
   CdemCheck(failure.empty(), PETSC_COMM_SELF, "%s", failure.c_str());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode PrepareOutputDir(MPI_Comm comm, const std::string& dir, bool overwrite) {
+PetscErrorCode PrepareOutputDir(MPI_Comm comm, const std::string &dir, bool overwrite) {
   PetscFunctionBeginUser;
   int rank;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
@@ -162,7 +162,7 @@ HistoryFile::~HistoryFile() {
   if (file_) std::fclose(file_);
 }
 
-PetscErrorCode HistoryFile::Open(MPI_Comm comm, const std::string& dir, const std::vector<std::string>& names) {
+PetscErrorCode HistoryFile::Open(MPI_Comm comm, const std::string &dir, const std::vector<std::string> &names) {
   PetscFunctionBeginUser;
   int rank;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
@@ -171,7 +171,7 @@ PetscErrorCode HistoryFile::Open(MPI_Comm comm, const std::string& dir, const st
   std::string failure;
   if (rank == 0) {
     std::string header = "step,time";
-    for (const std::string& name : names) header += "," + name;
+    for (const std::string &name : names) header += "," + name;
     header += "\n";
     if (file_) std::fclose(file_);
     file_ = std::fopen(path_.c_str(), "w");
@@ -182,8 +182,8 @@ PetscErrorCode HistoryFile::Open(MPI_Comm comm, const std::string& dir, const st
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HistoryFile::Append(const std::vector<PetscInt>& steps, const std::vector<double>& times,
-                                   const std::vector<std::vector<double>>& values) {
+PetscErrorCode HistoryFile::Append(const std::vector<PetscInt> &steps, const std::vector<double> &times,
+                                   const std::vector<std::vector<double>> &values) {
   PetscFunctionBeginUser;
   std::string failure;
   if (file_) {
@@ -206,7 +206,7 @@ PetscErrorCode HistoryFile::Append(const std::vector<PetscInt>& steps, const std
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode WriteSummary(MPI_Comm comm, const std::string& dir, const nlohmann::json& summary) {
+PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &dir, const nlohmann::json &summary) {
   PetscFunctionBeginUser;
   int rank;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));

@@ -10,9 +10,9 @@
 namespace cdem {
 
 /// Replaces path by text: path.part is written and renamed. Returns what went wrong, or "".
-inline std::string ReplaceFile(const std::string& path, const std::string& text) {
+inline std::string ReplaceFile(const std::string &path, const std::string &text) {
   const std::string part = path + ".part";
-  std::FILE* file = std::fopen(part.c_str(), "wb");
+  std::FILE *file = std::fopen(part.c_str(), "wb");
   if (!file) return "cannot write " + part + ": " + std::strerror(errno);
   bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
   int code = errno;

@@ -11,8 +11,8 @@ namespace cdem {
 namespace {
 
 // Rows that a rank gives, in any order, to contiguous blocks of the global numbers.
-PetscErrorCode CreateBlocks(MPI_Comm comm, const std::vector<std::int64_t>& numbers, const char* what, PetscSF* sf,
-                            Hdf5Block* block) {
+PetscErrorCode CreateBlocks(MPI_Comm comm, const std::vector<std::int64_t> &numbers, const char *what, PetscSF *sf,
+                            Hdf5Block *block) {
   PetscFunctionBeginUser;
   const std::int64_t n = static_cast<std::int64_t>(numbers.size());
   std::int64_t total;
@@ -40,7 +40,7 @@ PetscErrorCode CreateBlocks(MPI_Comm comm, const std::vector<std::int64_t>& numb
   PetscCall(PetscSFCreate(comm, sf));
   PetscCall(PetscSFSetGraph(*sf, end - begin, static_cast<PetscInt>(n), nullptr, PETSC_COPY_VALUES, roots.data(),
                             PETSC_COPY_VALUES));
-  const PetscInt* degree;
+  const PetscInt *degree;
   PetscCall(PetscSFComputeDegreeBegin(*sf, &degree));
   PetscCall(PetscSFComputeDegreeEnd(*sf, &degree));
   bad = !std::all_of(degree, degree + (end - begin), [](PetscInt d) { return d == 1; });
@@ -50,7 +50,7 @@ PetscErrorCode CreateBlocks(MPI_Comm comm, const std::vector<std::int64_t>& numb
 }
 
 template <class T>
-PetscErrorCode ToBlock(PetscSF sf, MPI_Datatype type, int width, const T* rows, std::vector<T>* block) {
+PetscErrorCode ToBlock(PetscSF sf, MPI_Datatype type, int width, const T *rows, std::vector<T> *block) {
   PetscFunctionBeginUser;
   MPI_Datatype unit;
   PetscCallMPI(MPI_Type_contiguous(width, type, &unit));
@@ -61,13 +61,13 @@ PetscErrorCode ToBlock(PetscSF sf, MPI_Datatype type, int width, const T* rows, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-const char* const kMeshSets[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points", "Connectivity",
+const char *const kMeshSets[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points", "Connectivity",
                                  "Offsets",        "Types"};
 
-std::string MeshName(const std::string& name) { return name + "_mesh_000.h5"; }
+std::string MeshName(const std::string &name) { return name + "_mesh_000.h5"; }
 
 // The attributes by which VTK knows the file.
-void Describe(Hdf5File* file) {
+void Describe(Hdf5File *file) {
   file->Integers("Version", {1, 0});
   file->Word("Type", "UnstructuredGrid");
 }
@@ -82,7 +82,7 @@ VtkSeries::~VtkSeries() {
   (void)PetscSFDestroy(&cell_sf_);
 }
 
-PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string& dir, const std::string& name, const VtkMesh& mesh) {
+PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string &dir, const std::string &name, const VtkMesh &mesh) {
   PetscFunctionBeginUser;
   comm_ = comm;
   dir_ = dir;
@@ -111,7 +111,7 @@ PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string& dir, const st
   width += 2;
   std::vector<std::int64_t> rows(mesh.cell_global.size() * static_cast<std::size_t>(width));
   for (std::size_t c = 0; c < mesh.cell_global.size(); ++c) {
-    std::int64_t* row = &rows[c * static_cast<std::size_t>(width)];
+    std::int64_t *row = &rows[c * static_cast<std::size_t>(width)];
     row[0] = mesh.cell_type[c];
     row[1] = mesh.cell_start[c + 1] - mesh.cell_start[c];
     std::copy(mesh.cell_points.data() + mesh.cell_start[c], mesh.cell_points.data() + mesh.cell_start[c + 1], row + 2);
@@ -124,7 +124,7 @@ PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string& dir, const st
   std::vector<std::int64_t> ends(cells.rows), connectivity;
   std::int64_t outside = 0;
   for (std::size_t c = 0; c < cells.rows; ++c) {
-    const std::int64_t* row = &block[c * static_cast<std::size_t>(width)];
+    const std::int64_t *row = &block[c * static_cast<std::size_t>(width)];
     types[c] = static_cast<std::uint8_t>(row[0]);
     connectivity.insert(connectivity.end(), row + 2, row + 2 + row[1]);
     ends[c] = static_cast<std::int64_t>(connectivity.size());
@@ -138,7 +138,7 @@ PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string& dir, const st
   PetscCallMPI(MPI_Allreduce(mine, total, 2, MPI_INT64_T, MPI_SUM, comm));
   PetscCheck(total[1] == 0, comm, PETSC_ERR_PLIB, "cells of a mesh for output name points that it does not have");
   if (rank == 0) before[0] = 0;  // Exscan leaves it undefined
-  for (std::int64_t& end : ends) end += before[0];
+  for (std::int64_t &end : ends) end += before[0];
   Hdf5Block ids = {static_cast<hsize_t>(total[0]), static_cast<hsize_t>(before[0]), connectivity.size()};
   Hdf5Block offsets = {cells.total + 1, cells.offset + 1, cells.rows};
   if (rank == 0) {  // the leading 0 of the offsets
@@ -163,7 +163,7 @@ PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string& dir, const st
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vector<VtkField>& fields) {
+PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vector<VtkField> &fields) {
   PetscFunctionBeginUser;
   PetscCheck(point_sf_, PETSC_COMM_SELF, PETSC_ERR_ORDER, "a frame before its mesh");
   int rank;
@@ -173,11 +173,11 @@ PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vect
   const std::string frame = name_ + number;
 
   std::int64_t numbers = 0;
-  for (const VtkField& field : fields) numbers += field.components * (field.on_points ? points_total_ : cells_total_);
+  for (const VtkField &field : fields) numbers += field.components * (field.on_points ? points_total_ : cells_total_);
   Hdf5File file(comm_, dir_ + "/" + frame + ".part");
   PetscCall(file.Open("VTKHDF", 8 * numbers));
   Describe(&file);
-  for (const char* name : kMeshSets) file.Link(name, MeshName(name_), std::string("/VTKHDF/") + name);
+  for (const char *name : kMeshSets) file.Link(name, MeshName(name_), std::string("/VTKHDF/") + name);
   const Hdf5Block one = {1, 0, rank == 0 ? 1u : 0u};
   const std::int64_t steps = step;
   const hid_t own = file.Group("FieldData");
@@ -189,8 +189,8 @@ PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vect
   const Hdf5Block cells = {static_cast<hsize_t>(cells_total_), static_cast<hsize_t>(cell_offset_),
                            static_cast<hsize_t>(cell_rows_)};
   std::vector<double> values;
-  for (const VtkField& field : fields) {
-    const Hdf5Block& block = field.on_points ? points : cells;
+  for (const VtkField &field : fields) {
+    const Hdf5Block &block = field.on_points ? points : cells;
     values.resize(block.rows * static_cast<std::size_t>(field.components));
     PetscCall(ToBlock(field.on_points ? point_sf_ : cell_sf_, MPI_DOUBLE, field.components, field.data, &values));
     PetscCall(file.Write(field.on_points ? on_points : on_cells, field.name.c_str(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
@@ -202,7 +202,7 @@ PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vect
   std::string failure;
   if (rank == 0) {
     std::string list;
-    for (const auto& [file_name, at] : frames_)
+    for (const auto &[file_name, at] : frames_)
       list += (list.empty() ? "" : ",") + ("\n" + nlohmann::ordered_json{{"name", file_name}, {"time", at}}.dump());
     failure = ReplaceFile(dir_ + "/" + name_ + ".hdf.series",
                           "{\"file-series-version\": \"1.0\", \"files\": [" + list + "\n]}\n");
