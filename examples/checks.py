@@ -44,3 +44,17 @@ def report(rows):
         print(f"| {name} | {exact:.7g} | {computed:.7g} | {error:.1e}{mark} | {tolerance:.0e} |")
     print("passed" if good else "FAILED")
     sys.exit(0 if good else 1)
+
+
+def plot(draw):
+    """Draws with draw(axes, output folder) and saves the figure: plot.py OUTPUT_FOLDER PICTURE.png. Needs matplotlib."""
+    if len(sys.argv) != 3:
+        sys.exit(f"usage: {sys.argv[0]} OUTPUT_FOLDER PICTURE.png")
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, axes = plt.subplots(figsize=(7.5, 4), layout="constrained")
+    draw(axes, sys.argv[1])
+    axes.grid(alpha=0.3)
+    axes.legend(framealpha=0.9)
+    figure.savefig(sys.argv[2], dpi=110)
