@@ -1,7 +1,11 @@
-# PETSc, MPI, parallel HDF5 and nlohmann JSON, as one INTERFACE target cdem_dependencies.
+# PETSc, MPI, parallel HDF5, nlohmann JSON and Random123, as one INTERFACE target cdem_dependencies.
 find_package(PkgConfig REQUIRED)
 find_package(MPI REQUIRED COMPONENTS C)
 find_package(nlohmann_json 3.10 REQUIRED) # Debian: nlohmann-json3-dev
+find_path(RANDOM123_INCLUDE_DIR Random123/philox.h)
+if(NOT RANDOM123_INCLUDE_DIR)
+  message(FATAL_ERROR "Random123 was not found: install librandom123-dev (Debian, Ubuntu), or set RANDOM123_INCLUDE_DIR")
+endif()
 
 # PETSc: PETSC_DIR and PETSC_ARCH where given (cmake variable, then environment); else, for CUDA, what scripts/petsc-cuda
 # built; else the system's petsc.pc.
@@ -57,6 +61,7 @@ endif()
 
 add_library(cdem_dependencies INTERFACE)
 target_compile_definitions(cdem_dependencies INTERFACE OMPI_SKIP_MPICXX=1 MPICH_SKIP_MPICXX=1)
+target_include_directories(cdem_dependencies SYSTEM INTERFACE ${RANDOM123_INCLUDE_DIR})
 target_link_libraries(cdem_dependencies INTERFACE PkgConfig::PETSC ${hdf5} MPI::MPI_C nlohmann_json::nlohmann_json)
 if(CDEM_CUDA)
   find_package(CUDAToolkit REQUIRED)

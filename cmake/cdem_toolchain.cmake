@@ -36,6 +36,9 @@ endif()
 
 # The host half of a .cu file gets the same flags as a .cxx file: the same inline function in both must be the same code.
 set(host_flags -Wall -Wextra -Wshadow -Wno-psabi -fno-math-errno)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  list(APPEND host_flags -Wno-free-nonheap-object) # GCC 12 sees one in std::vector where there is none
+endif()
 if(CDEM_MARCH)
   list(APPEND host_flags -march=${CDEM_MARCH})
 endif()
