@@ -1,0 +1,240 @@
+// The GPU backend: the reference way, captured in CUDA graphs on one rank; with a halo exchange a step on several.
+#include "core/error.hpp"
+#include "core/events.hpp"
+#include "cuda/device_tables.cuh"
+
+#include <petscdevice.h>
+
+#include <utility>
+
+namespace cdem {
+
+bool CudaDeviceThere() {
+  int n = 0;
+  const bool there = cudaGetDeviceCount(&n) == cudaSuccess && n > 0;
+  if (!there) (void)cudaGetLastError();
+  return there;
+}
+
+namespace {
+
+/// A run of equal steps, recorded once and replayed.
+struct StepGraph {
+  int steps = 0;
+  cudaGraphExec_t exec = nullptr;
+};
+
+class CudaBackend final : public Backend {
+ public:
+  CudaBackend(const Tables &tables, int block) : t_(tables), block_(block) {}
+  ~CudaBackend() override {
+    DropGraphs();
+    if (own_stream_) cudaStreamDestroy(own_stream_);
+    if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
+  }
+
+  PetscErrorCode Create(int n_owned_cells) {
+    PetscFunctionBeginUser;
+    PetscCall(PetscDeviceInitialize(PETSC_DEVICE_CUDA));  // PETSc chooses the device of this rank
+    PetscCall(tables_.Create(t_, n_owned_cells));
+    PetscCall(u_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
+    PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
+    PetscCall(batch_.Allocate(1));
+    // One rank: a stream of our own, which can be captured. Several: the default one, on which PetscSF works.
+    if (!t_.halo) CdemCuda(cudaStreamCreateWithFlags(&own_stream_, cudaStreamNonBlocking));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  std::string Name() const override {
+    int device = 0;
+    cudaDeviceProp properties;
+    cudaGetDevice(&device);
+    cudaGetDeviceProperties(&properties, device);
+    return properties.name;
+  }
+  std::size_t Bytes() const override { return tables_.Bytes() + u_.bytes() + v_.bytes() + schedule_.bytes() + history_.bytes(); }
+
+  PetscErrorCode CreateVecs(Vec *u, Vec *v) override {
+    PetscFunctionBeginUser;
+    const PetscInt n = 3 * static_cast<PetscInt>(t_.n_owned);
+    PetscCall(VecCreateMPICUDAWithArrays(t_.comm, 3, n, PETSC_DECIDE, nullptr, u_.get(), u));
+    PetscCall(VecCreateMPICUDAWithArrays(t_.comm, 3, n, PETSC_DECIDE, nullptr, v_.get(), v));
+    vec_u_ = *u, vec_v_ = *v;
+    if (t_.halo) {
+      PetscCallMPI(MPI_Type_contiguous(3, MPIU_REAL, &unit_));
+      PetscCallMPI(MPI_Type_commit(&unit_));
+    }
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Advance(const Batch &batch, Failure *failure) override {
+    PetscFunctionBeginUser;
+    PetscScalar *u, *v;
+    PetscCall(VecCUDAGetArray(vec_u_, &u));  // PETSc must know that the device copies change
+    PetscCall(VecCUDAGetArray(vec_v_, &v));
+    PetscCall(Prepare(batch));
+    const NodeView nodes = View();
+    CdemCuda(cudaDeviceSynchronize());  // what PETSc did to the Vecs is done before our stream reads them
+    int done = 0;
+    if (t_.halo) {
+      for (; done < batch.n; ++done) {
+        PetscCall(Halo());
+        tables_.LaunchStep(nodes, done == 0 ? batch.first : batch.rest, batch_.get(), block_, own_stream_);
+      }
+    } else {
+      if (!(batch.first == batch.rest))
+        tables_.LaunchStep(nodes, batch.first, batch_.get(), block_, own_stream_), ++done;
+      PetscCall(Replay(nodes, batch.rest, batch.n - done));
+    }
+    CdemCuda(cudaGetLastError());
+    BatchState state;
+    CdemCuda(cudaMemcpyAsync(&state, batch_.get(), sizeof state, cudaMemcpyDeviceToHost, own_stream_));
+    CdemCuda(cudaStreamSynchronize(own_stream_));
+    PetscCall(VecCUDARestoreArray(vec_u_, &u));
+    PetscCall(VecCUDARestoreArray(vec_v_, &v));
+    if (t_.n_watch > 0)
+      CdemCuda(cudaMemcpy(batch.history, history_.get(), 6 * sizeof(double) * t_.n_watch * static_cast<std::size_t>(batch.n),
+                          cudaMemcpyDeviceToHost));
+    if (state.failure != ~0ull)
+      *failure = Failure{static_cast<int>(state.failure >> 32), static_cast<int>(state.failure & 0xffffffffu)};
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Observe(const StepArgs &next, const double *schedule, Observed *observed) override {
+    PetscFunctionBeginUser;
+    const PetscScalar *u, *v;
+    PetscCall(VecCUDAGetArrayRead(vec_u_, &u));
+    PetscCall(VecCUDAGetArrayRead(vec_v_, &v));
+    PetscCall(Reserve(1));
+    if (schedule_.size() > 0)
+      CdemCuda(cudaMemcpy(schedule_.get(), schedule, 3 * sizeof(double) * t_.n_tables, cudaMemcpyHostToDevice));
+    PetscCall(Halo());
+    CdemCuda(cudaDeviceSynchronize());
+    PetscCall(tables_.Observe(View(), next, own_stream_, observed));
+    PetscCall(VecCUDARestoreArrayRead(vec_u_, &u));
+    PetscCall(VecCUDARestoreArrayRead(vec_v_, &v));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Download(const double **u, const double **v, const std::vector<SpringHistory> **history) override {
+    PetscFunctionBeginUser;
+    const PetscScalar *array;
+    for (Vec vec : {vec_u_, vec_v_}) {  // a Vec that the host changed last is brought to the device first
+      PetscCall(VecCUDAGetArrayRead(vec, &array));
+      PetscCall(VecCUDARestoreArrayRead(vec, &array));
+    }
+    PetscCall(Halo());
+    CdemCuda(cudaDeviceSynchronize());
+    PetscCall(u_.Download(&host_u_));
+    PetscCall(v_.Download(&host_v_));
+    PetscCall(tables_.DownloadHistories(&host_history_));
+    *u = host_u_.data();
+    *v = host_v_.data();
+    *history = &host_history_;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Synchronize() override {
+    PetscFunctionBeginUser;
+    CdemCuda(cudaDeviceSynchronize());
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+ private:
+  NodeView View() const { return tables_.Nodes(u_.get(), v_.get(), schedule_.get(), history_.get()); }
+
+  /// Room for the schedule and the history of n steps; only in scenes that have them.
+  PetscErrorCode Reserve(int n) {
+    PetscFunctionBeginUser;
+    const std::size_t schedule = t_.records.n > 0 ? 3 * static_cast<std::size_t>(t_.n_tables) * n : 0;
+    const std::size_t history = 6 * static_cast<std::size_t>(t_.n_watch) * n;
+    if (schedule > schedule_.size() || history > history_.size()) {
+      DropGraphs();  // they hold the old addresses
+      PetscCall(schedule_.Allocate(schedule));
+      PetscCall(history_.Allocate(history));
+    }
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Prepare(const Batch &batch) {
+    PetscFunctionBeginUser;
+    PetscCall(Reserve(batch.n));
+    if (batch.schedule && schedule_.size() > 0)
+      CdemCuda(cudaMemcpy(schedule_.get(), batch.schedule, 3 * sizeof(double) * t_.n_tables * static_cast<std::size_t>(batch.n),
+                          cudaMemcpyHostToDevice));
+    const BatchState start{-1, ~0ull};
+    CdemCuda(cudaMemcpy(batch_.get(), &start, sizeof start, cudaMemcpyHostToDevice));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  void DropGraphs() {
+    for (StepGraph &g : graphs_)
+      if (g.exec) cudaGraphExecDestroy(std::exchange(g.exec, nullptr));
+  }
+
+  /// n equal steps: as many long graphs as fit, then short ones, then single steps.
+  PetscErrorCode Replay(const NodeView &nodes, const StepArgs &args, int n) {
+    PetscFunctionBeginUser;
+    if (!(args == graph_args_)) DropGraphs();
+    graph_args_ = args;
+    for (StepGraph &g : graphs_)
+      for (; n >= g.steps; n -= g.steps) {
+        if (!g.exec) PetscCall(Capture(nodes, args, &g));
+        CdemCuda(cudaGraphLaunch(g.exec, own_stream_));
+      }
+    for (; n > 0; --n) tables_.LaunchStep(nodes, args, batch_.get(), block_, own_stream_);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Capture(const NodeView &nodes, const StepArgs &args, StepGraph *g) {
+    PetscFunctionBeginUser;
+    cudaGraph_t graph;
+    CdemCuda(cudaStreamBeginCapture(own_stream_, cudaStreamCaptureModeThreadLocal));
+    for (int i = 0; i < g->steps; ++i) tables_.LaunchStep(nodes, args, batch_.get(), block_, own_stream_);
+    CdemCuda(cudaStreamEndCapture(own_stream_, &graph));
+    CdemCuda(cudaGraphInstantiate(&g->exec, graph, 0));
+    CdemCuda(cudaGraphDestroy(graph));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Halo() {
+    PetscFunctionBeginUser;
+    if (!t_.halo) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(PetscLogEventBegin(events.halo, nullptr, nullptr, nullptr, nullptr));
+    for (const DeviceArray<double> *field : {&u_, &v_}) {
+      if (field == &v_ && t_.beta == 0) break;
+      double *ghosts = field->get() + 3 * static_cast<std::size_t>(t_.n_owned);
+      PetscCall(PetscSFBcastWithMemTypeBegin(t_.halo, unit_, PETSC_MEMTYPE_CUDA, field->get(), PETSC_MEMTYPE_CUDA, ghosts,
+                                             MPI_REPLACE));
+      PetscCall(PetscSFBcastEnd(t_.halo, unit_, field->get(), ghosts, MPI_REPLACE));
+    }
+    PetscCall(PetscLogEventEnd(events.halo, nullptr, nullptr, nullptr, nullptr));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  const Tables &t_;
+  int block_;
+  DeviceTables tables_;
+  DeviceArray<double> u_, v_, schedule_, history_;
+  DeviceArray<BatchState> batch_;
+  Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
+  cudaStream_t own_stream_ = nullptr;
+  StepGraph graphs_[2] = {{64, nullptr}, {8, nullptr}};
+  StepArgs graph_args_;
+  MPI_Datatype unit_ = MPI_DATATYPE_NULL;
+  std::vector<double> host_u_, host_v_;
+  std::vector<SpringHistory> host_history_;
+};
+
+}  // namespace
+
+PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block,
+                                 std::unique_ptr<Backend> *backend) {
+  PetscFunctionBeginUser;
+  auto made = std::make_unique<CudaBackend>(tables, elements_per_block);
+  PetscCall(made->Create(n_owned_cells));
+  *backend = std::move(made);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem

@@ -1,0 +1,55 @@
+// The tables on the device, and the launches of one step over them.
+#pragma once
+#include "cuda/device_array.cuh"
+#include "cuda/kernels.cuh"
+#include "forces/backend.hpp"
+
+namespace cdem {
+
+/// Device copies of Tables, and the state of the springs.
+class DeviceTables {
+ public:
+  PetscErrorCode Create(const Tables &tables, int n_owned_cells);
+  std::size_t Bytes() const;
+
+  /// Pointers of the nodes; schedule and history are the caller's device buffers.
+  NodeView Nodes(double *u, double *v, const double *schedule, double *history) const;
+  /// Launches one step's kernels. [in] batch: device.
+  void LaunchStep(const NodeView &nodes, const StepArgs &args, BatchState *batch, int block, cudaStream_t stream);
+  /// Sums over what this rank counts; waits for them.
+  PetscErrorCode Observe(const NodeView &nodes, const StepArgs &args, cudaStream_t stream, Observed *observed);
+  PetscErrorCode DownloadHistories(std::vector<SpringHistory> *histories) const;
+
+ private:
+  struct Elements {
+    const ElementTable *host;
+    DeviceArray<int> node, material;
+    DeviceArray<std::uint8_t> counted;
+  };
+  struct Springs {
+    const SpringTable *host;
+    DeviceArray<int> a, b, joint;
+    DeviceArray<double> normal, area, kn, ks, slip;
+    DeviceArray<std::uint8_t> state, counted;
+  };
+  PetscErrorCode BuildSlotLists();
+  ElementView View(const Elements &e, const double *u, const double *v, double beta) const;
+  SpringView View(const Springs &s, const double *u, const double *v, double beta) const;
+  SlotLists Lists() const { return {list_start_.get(), list_entry_.get(), slots_.get()}; }
+  /// Sums columns of partial_ rows on the host, in order.
+  PetscErrorCode AddPartial(int blocks, int columns, double *sums, int maxima) const;
+
+  const Tables *t_ = nullptr;
+  std::vector<Elements> elements_;
+  std::vector<Springs> springs_;
+  DeviceArray<double> x_, mass_, inverse_mass_, block_param_, joint_param_, slots_;
+  DeviceArray<int> list_start_, list_entry_;
+  DeviceArray<int> record_, table_, load_start_, load_table_, watch_;
+  DeviceArray<std::uint8_t> kind_;
+  DeviceArray<double> value_, load_;
+  DeviceArray<double> partial_, undamped_;  // only once something is observed
+};
+
+inline int Blocks(int n, int block) { return (n + block - 1) / block; }
+
+}  // namespace cdem

@@ -1,0 +1,18 @@
+// Errors a user can mend: one short message, exit code 1, no traceback.
+#pragma once
+#include "core/petsc.hpp"
+
+namespace cdem {
+
+/// Installs the error handler: a CdemCheck failure prints "cdem: error: ..." once; anything else keeps PETSc's traceback.
+PetscErrorCode InstallErrorHandler();
+
+/// Ends the program after a failed call: exit code 1, all ranks of PETSC_COMM_WORLD with it. Does not return.
+[[noreturn]] void ExitOnError();
+
+}  // namespace cdem
+
+/// Raises an error of the user's input unless cond holds. With a communicator of several ranks the check must be
+/// collective and give the same answer everywhere (only rank 0 prints); with PETSC_COMM_SELF the rank prints by itself.
+/// The message says what is wrong, where, and what to do.
+#define CdemCheck(cond, comm, ...) PetscCheck(cond, comm, PETSC_ERR_USER_INPUT, __VA_ARGS__)

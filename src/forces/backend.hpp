@@ -1,0 +1,67 @@
+// One way of launching the bodies: it holds the state (u, v, spring histories) where it computes, advances batches of
+// steps, and observes without touching the state.
+#pragma once
+#include "forces/host_passes.hpp"
+
+#include <memory>
+
+namespace cdem {
+
+/// A batch of steps of equal dt. The first kick may differ (start of the run, change of dt).
+struct Batch {
+  StepArgs first, rest;
+  int n = 0;
+  const double *schedule = nullptr;  ///< host, [n][n_tables][3]; NULL without records
+  double *history = nullptr;         ///< host, [n][n_watch][6], filled by Advance; NULL without watched nodes
+};
+
+/// The first node whose velocity left the numbers: step within the batch and local node; step < 0: none.
+struct Failure {
+  int step = -1, node = -1;
+};
+
+/// Sums over what this rank counts, at u(n); the caller adds them over the ranks.
+struct Observed {
+  double kinetic = 0, strain = 0, spring = 0, form = 0, momentum[3] = {0, 0, 0};
+  double residual_sum = 0, residual_count = 0;  ///< out-of-balance |component| over free components [N]
+  double force_sum = 0, force_count = 0;        ///< |component| of corner and spring forces before summation [N]
+  double broken = 0, springs = 0;
+  double v_max2 = 0, u_max2 = 0;                ///< largest |v|^2, |u|^2
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  /// "cpu, 8 lanes (AVX-512)" or the name of the GPU.
+  virtual std::string Name() const = 0;
+  /// Memory held for state and tables [bytes].
+  virtual std::size_t Bytes() const = 0;
+  /// Vecs of the owned nodes (block size 3) on the backend's own memory, behind which the ghosts lie.
+  virtual PetscErrorCode CreateVecs(Vec *u, Vec *v) = 0;
+  virtual PetscErrorCode Advance(const Batch &batch, Failure *failure) = 0;
+  /// Energies, momentum and balance at u(n). [in] next: the arguments that the coming step would have.
+  virtual PetscErrorCode Observe(const StepArgs &next, const double *schedule, Observed *observed) = 0;
+  /// Host copies of u, v [n_local][3] (ghosts up to date) and of the spring histories; pointers stay valid until the
+  /// next call.
+  virtual PetscErrorCode Download(const double **u, const double **v, const std::vector<SpringHistory> **history) = 0;
+  /// Waits until everything launched has run.
+  virtual PetscErrorCode Synchronize() = 0;
+};
+
+PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, std::unique_ptr<Backend> *backend);
+
+/// At u(n), from host copies: v(n) [n_owned][3], and the element and spring results. Used by every backend for frames,
+/// and by the host one for its observations.
+PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const double *u, const double *v,
+                             const std::vector<SpringHistory> &history, const StepArgs &next, const double *schedule,
+                             ElementResults *elements, SpringResults *springs, std::vector<double> *v_now,
+                             Observed *observed);
+
+#ifdef CDEM_HAVE_CUDA
+/// True when this machine has a usable GPU.
+bool CudaDeviceThere();
+PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block,
+                                 std::unique_ptr<Backend> *backend);
+#endif
+
+}  // namespace cdem

@@ -1,0 +1,199 @@
+#include "forces/backend.hpp"
+#include "forces/observe.hpp"
+#include "core/events.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+
+/// Pointers to the tables of the nodes on the host.
+static NodeView HostView(const Tables &t, double *u, double *v, const double *schedule, double *history) {
+  NodeView n;
+  n.n_owned = t.n_owned;
+  n.u = u;
+  n.v = v;
+  n.inverse_mass = t.inverse_mass.data();
+  n.n_tables = t.n_tables;
+  n.n_watch = t.n_watch;
+  n.schedule = schedule;
+  n.history = history;
+  if (t.records.n > 0) {
+    n.record = t.records.of_node.data();
+    n.kind = t.records.kind.data();
+    n.value = t.records.value.data();
+    n.table = t.records.table.data();
+    n.load_start = t.records.load_start.data();
+    n.load_table = t.records.load_table.data();
+    n.load = t.records.load.data();
+    n.watch = t.records.watch.data();
+  }
+  return n;
+}
+
+PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const double *u, const double *v,
+                             const std::vector<SpringHistory> &history, const StepArgs &next, const double *schedule,
+                             ElementResults *elements, SpringResults *springs, std::vector<double> *v_now,
+                             Observed *observed) {
+  PetscFunctionBeginUser;
+  std::vector<double> f(3 * static_cast<std::size_t>(tables.n_local), 0.0), damped;
+  HostElementsObserve(tables, n_owned_cells, u, f.data(), elements);
+  HostSpringsObserve(tables, u, v, 0, history, f.data(), springs);
+  if (tables.beta != 0) {
+    damped.assign(f.size(), 0.0);
+    SpringResults unused;
+    HostElements(tables, u, v, tables.beta, damped.data());
+    HostSpringsObserve(tables, u, v, tables.beta, history, damped.data(), &unused);
+  }
+  const double *f_damped = damped.empty() ? f.data() : damped.data();
+  const NodeView view = HostView(tables, const_cast<double *>(u), const_cast<double *>(v), schedule, nullptr);
+  if (v_now) v_now->resize(3 * static_cast<std::size_t>(tables.n_owned));
+  Observed sum;
+  for (int i = 0; i < tables.n_owned; ++i) {
+    double now[3];
+    const double *fi = &f[3 * static_cast<std::size_t>(i)], *fd = f_damped + 3 * static_cast<std::size_t>(i);
+    const NodeSums s = tables.records.n > 0 ? ObserveNode<true>(view, next, i, tables.mass[i], fi, fd, now)
+                                            : ObserveNode<false>(view, next, i, tables.mass[i], fi, fd, now);
+    if (v_now) std::copy_n(now, 3, &(*v_now)[3 * static_cast<std::size_t>(i)]);
+    sum.kinetic += s.kinetic;
+    sum.form += s.form;
+    for (int k = 0; k < 3; ++k) sum.momentum[k] += s.momentum[k];
+    sum.residual_sum += s.residual;
+    sum.residual_count += s.free;
+    sum.v_max2 = std::max(sum.v_max2, s.v2);
+    sum.u_max2 = std::max(sum.u_max2, s.u2);
+  }
+  sum.strain = elements->energy;
+  sum.spring = springs->energy;
+  sum.force_sum = elements->force_sum + springs->force_sum;
+  sum.force_count = elements->force_count + springs->force_count;
+  sum.broken = springs->broken;
+  sum.springs = springs->count;
+  if (observed) *observed = sum;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+namespace {
+
+class HostBackend final : public Backend {
+ public:
+  HostBackend(const Tables &tables, int n_owned_cells)
+      : t_(tables), n_owned_cells_(n_owned_cells), u_(3 * static_cast<std::size_t>(tables.n_local), 0.0), v_(u_), f_(u_),
+        history_(StartHistories(tables)) {}
+
+  std::string Name() const override {
+    const char *set = kLanes == 8 ? "AVX-512" : kLanes == 4 ? "AVX" : "SSE2";
+    return "cpu, " + std::to_string(kLanes) + " lanes (" + set + ")";
+  }
+  std::size_t Bytes() const override {
+    std::size_t bytes = 8 * (3 * u_.size() + t_.x.size() + 2 * t_.mass.size());
+    for (const ElementTable &e : t_.elements) bytes += 4 * (e.node.size() + e.material.size());
+    for (const SpringTable &s : t_.springs) bytes += static_cast<std::size_t>(s.n_pad) * (4 * 3 + 8 * 6);
+    for (const SpringHistory &h : history_) bytes += h.state.size() + 8 * h.slip.size();
+    return bytes;
+  }
+
+  PetscErrorCode CreateVecs(Vec *u, Vec *v) override {
+    PetscFunctionBeginUser;
+    const PetscInt n = 3 * static_cast<PetscInt>(t_.n_owned);
+    PetscCall(VecCreateMPIWithArray(t_.comm, 3, n, PETSC_DECIDE, u_.data(), u));
+    PetscCall(VecCreateMPIWithArray(t_.comm, 3, n, PETSC_DECIDE, v_.data(), v));
+    vec_u_ = *u, vec_v_ = *v;
+    if (t_.halo) {
+      PetscCallMPI(MPI_Type_contiguous(3, MPIU_REAL, &unit_));
+      PetscCallMPI(MPI_Type_commit(&unit_));
+    }
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Advance(const Batch &batch, Failure *failure) override {
+    PetscFunctionBeginUser;
+    *failure = Failure();
+    const NodeView view = HostView(t_, u_.data(), v_.data(), batch.schedule, batch.history);
+    for (int step = 0; step < batch.n; ++step) {
+      PetscCall(Halo());
+      PetscCall(PetscLogEventBegin(events.elements, nullptr, nullptr, nullptr, nullptr));
+      std::fill(f_.begin(), f_.end(), 0.0);
+      HostElements(t_, u_.data(), v_.data(), t_.beta, f_.data());
+      PetscCall(PetscLogEventEnd(events.elements, nullptr, nullptr, nullptr, nullptr));
+      if (!t_.springs.empty()) {
+        PetscCall(PetscLogEventBegin(events.springs, nullptr, nullptr, nullptr, nullptr));
+        HostSprings(t_, u_.data(), v_.data(), t_.beta, history_, f_.data());
+        PetscCall(PetscLogEventEnd(events.springs, nullptr, nullptr, nullptr, nullptr));
+      }
+      PetscCall(PetscLogEventBegin(events.nodes, nullptr, nullptr, nullptr, nullptr));
+      const StepArgs &args = step == 0 ? batch.first : batch.rest;
+      const int bad = t_.records.n > 0 ? Nodes<true>(view, args, step) : Nodes<false>(view, args, step);
+      if (bad >= 0 && failure->step < 0) *failure = Failure{step, bad};
+      PetscCall(PetscLogEventEnd(events.nodes, nullptr, nullptr, nullptr, nullptr));
+    }
+    for (Vec vec : {vec_u_, vec_v_}) {  // PETSc must know that the values changed
+      PetscScalar *values;
+      PetscCall(VecGetArray(vec, &values));
+      PetscCall(VecRestoreArray(vec, &values));
+    }
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Observe(const StepArgs &next, const double *schedule, Observed *observed) override {
+    PetscFunctionBeginUser;
+    PetscCall(Halo());
+    ElementResults elements;
+    SpringResults springs;
+    PetscCall(ObserveOnHost(t_, n_owned_cells_, u_.data(), v_.data(), history_, next, schedule, &elements, &springs,
+                            nullptr, observed));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Download(const double **u, const double **v, const std::vector<SpringHistory> **history) override {
+    PetscFunctionBeginUser;
+    PetscCall(Halo());
+    *u = u_.data();
+    *v = v_.data();
+    *history = &history_;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscErrorCode Synchronize() override { return PETSC_SUCCESS; }
+  ~HostBackend() override {
+    if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
+  }
+
+ private:
+  template <bool kRecords>
+  int Nodes(const NodeView &view, const StepArgs &args, int step) {
+    int bad = -1;
+    for (int i = 0; i < t_.n_owned; ++i)
+      if (!NodeStep<kRecords>(view, args, i, step, &f_[3 * static_cast<std::size_t>(i)]) && bad < 0) bad = i;
+    return bad;
+  }
+  PetscErrorCode Halo() {
+    PetscFunctionBeginUser;
+    if (!t_.halo) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(PetscLogEventBegin(events.halo, nullptr, nullptr, nullptr, nullptr));
+    const std::size_t ghosts = 3 * static_cast<std::size_t>(t_.n_owned);
+    PetscCall(PetscSFBcastBegin(t_.halo, unit_, u_.data(), u_.data() + ghosts, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(t_.halo, unit_, u_.data(), u_.data() + ghosts, MPI_REPLACE));
+    if (t_.beta != 0) {
+      PetscCall(PetscSFBcastBegin(t_.halo, unit_, v_.data(), v_.data() + ghosts, MPI_REPLACE));
+      PetscCall(PetscSFBcastEnd(t_.halo, unit_, v_.data(), v_.data() + ghosts, MPI_REPLACE));
+    }
+    PetscCall(PetscLogEventEnd(events.halo, nullptr, nullptr, nullptr, nullptr));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  const Tables &t_;
+  int n_owned_cells_;
+  std::vector<double> u_, v_, f_;
+  std::vector<SpringHistory> history_;
+  Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
+  MPI_Datatype unit_ = MPI_DATATYPE_NULL;
+};
+
+}  // namespace
+
+PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, std::unique_ptr<Backend> *backend) {
+  PetscFunctionBeginUser;
+  *backend = std::make_unique<HostBackend>(tables, n_owned_cells);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem

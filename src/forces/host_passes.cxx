@@ -1,0 +1,222 @@
+#include "forces/host_passes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+
+namespace {
+
+/// Parameters of the kLanes rows from i on: one row where all are of one material.
+CDEM_HD void LoadParams(const std::vector<double> &table, const int *row, int count, Lanes *param) {
+  bool same = true;
+  for (int l = 1; l < kLanes; ++l) same &= row[l] == row[0];
+  for (int p = 0; p < count; ++p) {
+    param[p] = Lanes{} + table[static_cast<std::size_t>(kMaxParams) * row[0] + p];
+    if (!same)
+      for (int l = 1; l < kLanes; ++l) param[p][l] = table[static_cast<std::size_t>(kMaxParams) * row[l] + p];
+  }
+}
+
+CDEM_HD Lanes Load(const double *p) {
+  Lanes r;
+  __builtin_memcpy(&r, p, sizeof r);
+  return r;
+}
+CDEM_HD void Store(double *p, Lanes v) { __builtin_memcpy(p, &v, sizeof v); }
+
+/// Three components of kLanes nodes from an [n][3] array.
+CDEM_HD void Gather(const double *from, const int *node, Lanes out[3]) {
+  alignas(sizeof(Lanes)) double buffer[3][kLanes];
+  CDEM_UNROLL for (int l = 0; l < kLanes; ++l) {
+    const double *p = from + 3 * static_cast<std::ptrdiff_t>(node[l]);
+    buffer[0][l] = p[0];
+    buffer[1][l] = p[1];
+    buffer[2][l] = p[2];
+  }
+  for (int k = 0; k < 3; ++k) out[k] = Load(buffer[k]);
+}
+
+template <class Form, class Law, bool kBeta, bool kObserve>
+void ElementLoop(const Tables &tables, const ElementTable &t, const double *u, const double *v, double beta, double *f,
+                 int n_owned_cells, ElementResults *results) {
+  constexpr int corners = Form::kCorners;
+  const std::size_t stride = t.n_pad;
+  for (int e = 0; e < t.n; e += kLanes) {
+    Lanes x[corners][3], w[corners][3], force[corners][3], param[kMaxParams];
+    for (int a = 0; a < corners; ++a) {
+      const int *node = &t.node[a * stride + e];
+      Gather(tables.x.data(), node, x[a]);
+      Gather(u, node, w[a]);
+      if (kBeta) {
+        Lanes rate[3];
+        Gather(v, node, rate);
+        for (int k = 0; k < 3; ++k) w[a][k] += beta * rate[k];
+      }
+    }
+    LoadParams(tables.block_param, &t.material[e], Law::kParams, param);
+    ElementSums<Lanes> sums;
+    ElementForce<Form, Law, kObserve>(x, w, param, force, &sums);
+
+    alignas(sizeof(Lanes)) double out[corners][3][kLanes];
+    for (int a = 0; a < corners; ++a)
+      for (int k = 0; k < 3; ++k) Store(out[a][k], force[a][k]);
+    const int live = std::min(kLanes, t.n - e);
+    for (int l = 0; l < live; ++l) {
+      CDEM_UNROLL for (int a = 0; a < corners; ++a) {
+        double *to = f + 3 * static_cast<std::ptrdiff_t>(t.node[a * stride + e + l]);
+        to[0] += out[a][0][l];
+        to[1] += out[a][1][l];
+        to[2] += out[a][2][l];
+      }
+      if (!kObserve) continue;
+      const int cell = t.cell[e + l];
+      if (cell >= n_owned_cells) continue;
+      results->energy += sums.energy[l];
+      results->force_count += 3 * corners;
+      for (int a = 0; a < corners; ++a)
+        for (int k = 0; k < 3; ++k) results->force_sum += std::fabs(out[a][k][l]);
+      if (results->stress)
+        for (int i = 0; i < 6; ++i)
+          results->stress[6 * static_cast<std::ptrdiff_t>(cell) + i] = sums.stress[i][l] / sums.volume[l];
+    }
+  }
+}
+
+template <bool kBeta, bool kObserve>
+void Elements(const Tables &tables, const double *u, const double *v, double beta, double *f, int n_owned_cells,
+              ElementResults *results) {
+  for (const ElementTable &t : tables.elements)
+    VisitElement(t.shape, [&](auto form) {
+      BlockLaws::Visit(t.law, [&](auto law) {
+        ElementLoop<decltype(form), decltype(law), kBeta, kObserve>(tables, t, u, v, beta, f, n_owned_cells, results);
+      });
+    });
+}
+
+template <class Law, bool kBeta, bool kCommit>
+void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, const double *v, double beta,
+                SpringHistory *history, double *f, SpringResults *results, int index) {
+  const std::size_t stride = t.n_pad;
+  for (int i = 0; i < t.n; i += kLanes) {
+    Spring<Lanes> s;
+    Lanes param[kMaxParams], at[3], force[3];
+    Gather(u, &t.b[i], s.d);
+    Gather(u, &t.a[i], at);
+    for (int k = 0; k < 3; ++k) s.d[k] -= at[k];
+    if (kBeta) {
+      Gather(v, &t.b[i], s.beta_rate);
+      Gather(v, &t.a[i], at);
+      for (int k = 0; k < 3; ++k) s.beta_rate[k] = beta * (s.beta_rate[k] - at[k]);
+    }
+    for (int k = 0; k < 3; ++k) s.normal[k] = Load(&t.normal[k * stride + i]);
+    s.kn = Load(&t.kn[i]);
+    s.ks = Load(&t.ks[i]);
+    LaneMask opens{}, slides{};
+    if constexpr (Law::kHistory) {
+      s.area = Load(&t.area[i]);
+      LoadParams(tables.joint_param, &t.joint[i], Law::kParams, param);
+      s.param = param;
+      double tension_lost[kLanes], cohesion_lost[kLanes];
+      for (int l = 0; l < kLanes; ++l) {
+        tension_lost[l] = history->state[i + l] & kTensionLost ? 1 : 0;
+        cohesion_lost[l] = history->state[i + l] & kCohesionLost ? 1 : 0;
+      }
+      s.tension_lost = Load(tension_lost);
+      s.cohesion_lost = Load(cohesion_lost);
+      for (int k = 0; k < 3; ++k) s.slip[k] = Load(&history->slip[k * stride + i]);
+    }
+    SpringForce<Law, kBeta>(s, force, &opens, &slides);
+
+    std::uint8_t next[kLanes] = {};
+    if constexpr (Law::kHistory) {
+      for (int l = 0; l < kLanes; ++l)
+        next[l] = NextState(history->state[i + l], opens[l], slides[l], param[Law::kKeepTension][l] != 0);
+      if (kCommit) {
+        std::copy_n(next, kLanes, &history->state[i]);
+        if (Any(opens | slides))
+          for (int k = 0; k < 3; ++k) Store(&history->slip[k * stride + i], s.slip[k]);
+      }
+    }
+    alignas(sizeof(Lanes)) double out[3][kLanes];
+    for (int k = 0; k < 3; ++k) Store(out[k], force[k]);
+    const int live = std::min(kLanes, t.n - i);
+    for (int l = 0; l < live; ++l) {
+      double *to_a = f + 3 * static_cast<std::ptrdiff_t>(t.a[i + l]), *to_b = f + 3 * static_cast<std::ptrdiff_t>(t.b[i + l]);
+      for (int k = 0; k < 3; ++k) to_a[k] += out[k][l];
+      for (int k = 0; k < 3; ++k) to_b[k] -= out[k][l];
+      if (kCommit) continue;
+      if (results->want_each)
+        for (int k = 0; k < 3; ++k) results->force[index][k * stride + i + l] = out[k][l];
+      if (results->want_each) results->state[index][i + l] = next[l];
+      if (!t.counted[i + l]) continue;
+      const double n[3] = {s.normal[0][l], s.normal[1][l], s.normal[2][l]}, one[3] = {out[0][l], out[1][l], out[2][l]};
+      results->energy += SpringEnergy(n, t.kn[i + l], t.ks[i + l], one);
+      for (int k = 0; k < 3; ++k) results->force_sum += std::fabs(one[k]);
+      results->force_count += 3;
+      results->count += 1;
+      results->broken += (next[l] & kCohesionLost) != 0;
+    }
+  }
+}
+
+template <bool kBeta, bool kCommit>
+void Springs(const Tables &tables, const double *u, const double *v, double beta, std::vector<SpringHistory> &history,
+             double *f, SpringResults *results) {
+  for (std::size_t g = 0; g < tables.springs.size(); ++g)
+    JointLaws::Visit(tables.springs[g].law, [&](auto law) {
+      SpringLoop<decltype(law), kBeta, kCommit>(tables, tables.springs[g], u, v, beta, &history[g], f, results,
+                                                static_cast<int>(g));
+    });
+}
+
+}  // namespace
+
+void HostElements(const Tables &tables, const double *u, const double *v, double beta, double *f) {
+  if (beta != 0)
+    Elements<true, false>(tables, u, v, beta, f, 0, nullptr);
+  else
+    Elements<false, false>(tables, u, v, beta, f, 0, nullptr);
+}
+
+void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, double *f, ElementResults *results) {
+  Elements<false, true>(tables, u, nullptr, 0, f, n_owned_cells, results);
+}
+
+void HostSprings(const Tables &tables, const double *u, const double *v, double beta,
+                 std::vector<SpringHistory> &history, double *f) {
+  if (beta != 0)
+    Springs<true, true>(tables, u, v, beta, history, f, nullptr);
+  else
+    Springs<false, true>(tables, u, v, beta, history, f, nullptr);
+}
+
+void HostSpringsObserve(const Tables &tables, const double *u, const double *v, double beta,
+                        const std::vector<SpringHistory> &history, double *f, SpringResults *results) {
+  if (results->want_each) {
+    results->force.resize(tables.springs.size());
+    results->state.resize(tables.springs.size());
+    for (std::size_t g = 0; g < tables.springs.size(); ++g) {
+      results->force[g].assign(3 * static_cast<std::size_t>(tables.springs[g].n_pad), 0.0);
+      results->state[g].assign(tables.springs[g].n_pad, 0);
+    }
+  }
+  auto &unchanged = const_cast<std::vector<SpringHistory> &>(history);  // a pass that does not commit only reads
+  if (beta != 0)
+    Springs<true, false>(tables, u, v, beta, unchanged, f, results);
+  else
+    Springs<false, false>(tables, u, v, beta, unchanged, f, results);
+}
+
+std::vector<SpringHistory> StartHistories(const Tables &tables) {
+  std::vector<SpringHistory> history(tables.springs.size());
+  for (std::size_t g = 0; g < history.size(); ++g) {
+    const SpringTable &t = tables.springs[g];
+    if (t.state.empty()) continue;
+    history[g].state = t.state;
+    history[g].slip.assign(3 * static_cast<std::size_t>(t.n_pad), 0.0);
+  }
+  return history;
+}
+
+}  // namespace cdem

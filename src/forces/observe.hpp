@@ -1,0 +1,50 @@
+// What one node gives to an observation; host and device.
+#pragma once
+#include "forces/bodies.hpp"
+
+namespace cdem {
+
+/// A node's share of the sums of an observation.
+struct NodeSums {
+  double kinetic, form, momentum[3], residual, free, v2, u2;
+};
+
+/// [in] f_int: internal force at u(n), without damping; f_damped: the same with beta K v. [out] v_now: v(n).
+template <bool kRecords>
+CDEM_HD NodeSums ObserveNode(const NodeView &n, const StepArgs &s, int i, double mass, const double f_int[3],
+                             const double f_damped[3], double v_now[3]) {
+  const int row = kRecords ? n.record[i] : -1;
+  double a[3], a_static[3];
+  Acceleration<kRecords>(n, s, i, row, n.schedule, f_damped, a);
+  Acceleration<kRecords>(n, s, i, row, n.schedule, f_int, a_static);
+  NodeSums sums = {};
+  for (int k = 0; k < 3; ++k) {
+    const double u = n.u[3 * static_cast<long long>(i) + k], before = n.v[3 * static_cast<long long>(i) + k];
+    double after = s.keep * before + s.kick * a[k], now = s.start ? before : 0.5 * (before + after);
+    double earlier = s.start ? 2 * before - after : before;
+    int kind = kFree;
+    if (kRecords && row >= 0) {
+      kind = (n.kind[row] >> (2 * k)) & 3;
+      if (kind != kFree) {
+        const double value = n.value[3 * row + k], *table = n.schedule + 3 * n.table[3 * row + k];
+        after = PrescribedVelocity(kind, value, table, u, s.dt);
+        if (s.start) earlier = kind == kVelocity ? value * table[0] : after;
+        now = s.start ? earlier : 0.5 * (before + after);
+      }
+    }
+    v_now[k] = now;
+    sums.kinetic += 0.5 * mass * now * now;
+    sums.form += 0.5 * mass * earlier * after + 0.5 * f_int[k] * u;
+    sums.momentum[k] = mass * now;
+    sums.v2 += now * now;
+    sums.u2 += u * u;
+    if (kind == kFree) {
+      const double residual = mass * a_static[k];
+      sums.residual += residual < 0 ? -residual : residual;
+      sums.free += 1;
+    }
+  }
+  return sums;
+}
+
+}  // namespace cdem

@@ -1,0 +1,20 @@
+// The cheap, rigorous bound of the critical time step: elements, springs and stiffness-proportional damping together.
+#pragma once
+#include "forces/tables.hpp"
+
+namespace cdem {
+
+struct StepBound {
+  double element_w2 = 0;  ///< largest lambda_max(K_e, M_e) over the elements, from above [1/s^2]
+  double spring_w2 = 0;   ///< largest 2 lambda_max(S_a)/m_a over the nodes, from above [1/s^2]
+  double dt = 0;          ///< critical step with beta [s], never above the exact one
+};
+
+/// w^2 <= max_e lambda_max(K_e, M_e) + max_a 2 lambda_max(S_a)/m_a (collective; the same on any number of ranks).
+/// lambda_max is taken from above as ||A^16||_F^(1/16) of the mass-scaled matrix.
+PetscErrorCode ComputeStepBound(const Tables &tables, const std::vector<Material> &materials, StepBound *bound);
+
+/// Critical step of the largest frequency w [1/s] with beta damping [s]: (2/w)(sqrt(1 + x^2) - x), x = beta w/2.
+double CriticalStep(double w2, double beta);
+
+}  // namespace cdem

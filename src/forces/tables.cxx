@@ -1,0 +1,198 @@
+#include "forces/tables.hpp"
+
+#include "core/error.hpp"
+#include "core/lanes.hpp"
+#include "mesh/geometry.hpp"
+#include "physics/laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cdem {
+
+PetscInt FaceNode(const Mesh &mesh, const Nodes &nodes, const Face &face, int j, int side) {
+  if (side == 0) return nodes.Corners(face.cell[0])[Info(mesh.cell_shape[face.cell[0]]).face[face.local[0]][j]];
+  int c0, c1;
+  FaceCornerPair(mesh, face, j, &c0, &c1);
+  return nodes.Corners(face.cell[1])[c1];
+}
+
+namespace {
+
+/// Corner coordinates of a cell.
+void CellX(const Mesh &mesh, PetscInt cell, double (*x)[3]) {
+  for (int a = 0; a < Info(mesh.cell_shape[cell]).corners; ++a) std::copy_n(mesh.X(mesh.Corners(cell)[a]), 3, x[a]);
+}
+
+void CellCentre(const Mesh &mesh, PetscInt cell, double *centre) {
+  double x[8][3];
+  CellX(mesh, cell, x);
+  const int corners = Info(mesh.cell_shape[cell]).corners;
+  for (int k = 0; k < 3; ++k) {
+    centre[k] = 0;
+    for (int a = 0; a < corners; ++a) centre[k] += x[a][k] / corners;
+  }
+}
+
+/// Cells with a complete node list, in ascending global number.
+std::vector<PetscInt> ActiveCells(const Mesh &mesh, const Nodes &nodes) {
+  std::vector<PetscInt> cells;
+  for (PetscInt c : SortedByGlobal(mesh)) {
+    const PetscInt *n = nodes.Corners(c);
+    const int corners = Info(mesh.cell_shape[c]).corners;
+    const bool complete = std::all_of(n, n + corners, [](PetscInt i) { return i >= 0; });
+    const bool touches = std::any_of(n, n + corners, [&](PetscInt i) { return i >= 0 && i < nodes.n_owned; });
+    if (complete && (touches || c < mesh.n_owned)) cells.push_back(c);
+  }
+  return cells;
+}
+
+void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials, Tables *tables) {
+  const std::vector<PetscInt> active = ActiveCells(mesh, nodes);
+  for (int shape = 0; shape < kShapes; ++shape)
+    for (int law = 0; law < BlockLaws::kCount; ++law) {
+      ElementTable t;
+      t.shape = static_cast<Shape>(shape);
+      t.law = law;
+      t.corners = Info(t.shape).corners;
+      for (PetscInt c : active)
+        if (mesh.cell_shape[c] == t.shape && materials[mesh.cell_region[c]].law == law) t.cell.push_back(c);
+      if (t.cell.empty()) continue;
+      t.n = static_cast<int>(t.cell.size());
+      t.n_pad = Padded(t.n);
+      t.node.resize(static_cast<std::size_t>(t.corners) * t.n_pad);
+      t.material.resize(t.n_pad);
+      for (int e = 0; e < t.n_pad; ++e) {
+        const int c = t.cell[std::min(e, t.n - 1)];
+        t.material[e] = mesh.cell_region[c];
+        for (int a = 0; a < t.corners; ++a)
+          t.node[static_cast<std::size_t>(a) * t.n_pad + e] = static_cast<int>(nodes.Corners(c)[a]);
+      }
+      t.corner_start = tables->n_slots;
+      tables->n_slots += static_cast<std::size_t>(t.corners) * t.n_pad;
+      tables->elements.push_back(std::move(t));
+    }
+}
+
+/// Row-sum masses, summed in ascending global number of the cells.
+PetscErrorCode BuildMass(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials, Tables *tables) {
+  PetscFunctionBeginUser;
+  tables->mass.assign(nodes.n_owned, 0.0);
+  for (const ElementTable &t : tables->elements)
+    for (int e = 0; e < t.n; ++e) {
+      double x[8][3], volume[8];
+      CellX(mesh, t.cell[e], x);
+      CornerVolumes(t.shape, x, volume);
+      for (int a = 0; a < t.corners; ++a) {
+        const int node = t.node[static_cast<std::size_t>(a) * t.n_pad + e];
+        if (node < nodes.n_owned) tables->mass[node] += materials[t.material[e]].density * volume[a];
+      }
+    }
+  tables->inverse_mass.resize(nodes.n_owned);
+  for (PetscInt i = 0; i < nodes.n_owned; ++i) {
+    const double *x = mesh.X(nodes.vertex[i]);
+    CdemCheck(tables->mass[i] > 0, PETSC_COMM_SELF, "the node at (%g, %g, %g) has mass %g kg: its elements are degenerate",
+              x[0], x[1], x[2], tables->mass[i]);
+    tables->inverse_mass[i] = 1.0 / tables->mass[i];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// Stiffness per area of a joint at a face [Pa/m]: given, or a multiple of the softer side's over the centre distance.
+void FaceStiffness(const Mesh &mesh, const std::vector<Material> &materials, const Joint &joint, const Face &face,
+                   double *kn, double *ks) {
+  *kn = joint.kn, *ks = joint.ks;
+  if (*kn > 0 && *ks > 0) return;
+  const Material &m0 = materials[mesh.cell_region[face.cell[0]]], &m1 = materials[mesh.cell_region[face.cell[1]]];
+  double c0[3], c1[3], d2 = 0;
+  CellCentre(mesh, face.cell[0], c0);
+  CellCentre(mesh, face.cell[1], c1);
+  for (int k = 0; k < 3; ++k) d2 += (c1[k] - c0[k]) * (c1[k] - c0[k]);
+  const double b_over_h = joint.stiffness_factor / std::sqrt(d2);
+  if (*kn < 0) *kn = b_over_h * std::min(m0.lambda + 2 * m0.mu, m1.lambda + 2 * m1.mu);
+  if (*ks < 0) *ks = b_over_h * std::min(m0.mu, m1.mu);
+}
+
+void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
+                  const std::vector<Material> &materials, const std::vector<Joint> &joints, Tables *tables) {
+  for (int law = 0; law < JointLaws::kCount; ++law) {
+    SpringTable t;
+    t.law = law;
+    std::vector<double> normal;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      const Face &face = mesh.faces[f];
+      if (face_interface[f] < 0 || face.cell[1] < 0 || joints[face_interface[f]].law != law) continue;
+      const ShapeInfo &info = Info(mesh.cell_shape[face.cell[0]]);
+      const int size = info.face_size[face.local[0]];
+      double x[4][3], area[4][3], kn = 0, ks = 0;
+      bool measured = false;
+      for (int j = 0; j < size; ++j) {
+        const PetscInt a = FaceNode(mesh, nodes, face, j, 0), b = FaceNode(mesh, nodes, face, j, 1);
+        const bool counted = face.cell[0] < mesh.n_owned;
+        if (a < 0 || b < 0 || a == b || (!counted && a >= nodes.n_owned && b >= nodes.n_owned)) continue;
+        if (!measured) {
+          for (int i = 0; i < size; ++i)
+            std::copy_n(mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][i]]), 3, x[i]);
+          FaceVectors(size, x, area);
+          FaceStiffness(mesh, materials, joints[face_interface[f]], face, &kn, &ks);
+          measured = true;
+        }
+        const double size_j = std::sqrt(Dot(area[j], area[j]));
+        t.a.push_back(static_cast<int>(a));
+        t.b.push_back(static_cast<int>(b));
+        t.area.push_back(size_j);
+        t.kn.push_back(kn * size_j);
+        t.ks.push_back(ks * size_j);
+        t.joint.push_back(face_interface[f]);
+        t.face.push_back(static_cast<int>(f));
+        t.counted.push_back(counted);
+        for (int k = 0; k < 3; ++k) normal.push_back(area[j][k] / size_j);
+      }
+    }
+    if (t.a.empty()) continue;
+    t.n = static_cast<int>(t.a.size());
+    t.n_pad = Padded(t.n);
+    for (auto *v : {&t.a, &t.b, &t.joint}) v->resize(t.n_pad, v->back());
+    t.counted.resize(t.n_pad, 0);
+    for (auto *v : {&t.area, &t.kn, &t.ks}) v->resize(t.n_pad, v->back());
+    t.normal.resize(3 * static_cast<std::size_t>(t.n_pad));
+    for (int i = 0; i < t.n_pad; ++i)
+      for (int k = 0; k < 3; ++k)
+        t.normal[static_cast<std::size_t>(k) * t.n_pad + i] = normal[3 * static_cast<std::size_t>(std::min(i, t.n - 1)) + k];
+    JointLaws::Visit(law, [&](auto l) {
+      if (!decltype(l)::kHistory) return;
+      t.state.assign(t.n_pad, 0);
+      for (int i = 0; i < t.n; ++i)
+        if (joints[t.joint[i]].broken) t.state[i] = kTensionLost | kCohesionLost;
+    });
+    t.force_start = tables->n_slots;
+    tables->n_slots += t.n_pad;
+    tables->springs.push_back(std::move(t));
+  }
+}
+
+}  // namespace
+
+PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
+                           const std::vector<Material> &materials, const std::vector<Joint> &joints, Tables *tables) {
+  PetscFunctionBeginUser;
+  CdemCheck(nodes.n_local < std::numeric_limits<int>::max() / 3, PETSC_COMM_SELF,
+            "a rank has %lld nodes: more than it can count; use more ranks", static_cast<long long>(nodes.n_local));
+  tables->comm = mesh.comm;
+  tables->n_owned = static_cast<int>(nodes.n_owned);
+  tables->n_local = static_cast<int>(nodes.n_local);
+  tables->halo = nodes.halo;
+  tables->x.resize(3 * static_cast<std::size_t>(nodes.n_local));
+  for (PetscInt i = 0; i < nodes.n_local; ++i) std::copy_n(mesh.X(nodes.vertex[i]), 3, &tables->x[3 * i]);
+  BuildElements(mesh, nodes, materials, tables);
+  PetscCall(BuildMass(mesh, nodes, materials, tables));
+  BuildSprings(mesh, nodes, face_interface, materials, joints, tables);
+  CdemCheck(tables->n_slots < static_cast<std::size_t>(std::numeric_limits<int>::max()), PETSC_COMM_SELF,
+            "a rank has %zu element corners and springs: more than it can count; use more ranks", tables->n_slots);
+  for (const Material &m : materials) tables->block_param.insert(tables->block_param.end(), m.param, m.param + kMaxParams);
+  for (const Joint &j : joints) tables->joint_param.insert(tables->joint_param.end(), j.param, j.param + kMaxParams);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem

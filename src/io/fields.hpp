@@ -1,0 +1,39 @@
+// Frames for ParaView: the blocks (displacement, velocity, stress, region) and the interfaces (opening, slip, stresses,
+// state), each as a series of its own.
+#pragma once
+#include "forces/backend.hpp"
+#include "io/vtk_series.hpp"
+
+namespace cdem {
+
+class Options;
+
+class FieldOutput {
+ public:
+  /// Reads -output_fields (collective).
+  PetscErrorCode Create(MPI_Comm comm, Options &options);
+  /// Writes the mesh files into a folder that exists.
+  PetscErrorCode Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
+                      const std::vector<int> &face_interface);
+  /// One frame from host copies at u(n). [in] v_now: [n_owned][3]; stress: [owned cells][6]; springs: with each force.
+  PetscErrorCode Write(PetscInt step, double time, const double *u, const std::vector<double> &v_now,
+                       const std::vector<double> &stress, const SpringResults &springs);
+
+ private:
+  PetscErrorCode OpenInterfaces(const std::string &dir, const std::vector<int> &face_interface);
+  PetscErrorCode WriteInterfaces(PetscInt step, double time, const double *u, const SpringResults &springs);
+  bool Wants(const char *field) const;
+
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  const Mesh *mesh_ = nullptr;
+  const Nodes *nodes_ = nullptr;
+  const Tables *tables_ = nullptr;
+  std::vector<std::string> wanted_;      // empty: all
+  std::vector<double> region_, interface_;
+  std::vector<int> row_of_face_;         // row of the interface mesh, -1 otherwise
+  std::vector<PetscInt> face_nodes_;     // per point of the interface mesh: node on the side of cell[0]
+  bool with_interfaces_ = false;
+  VtkSeries blocks_, interfaces_;
+};
+
+}  // namespace cdem

@@ -1,0 +1,203 @@
+#include "loads/boundary.hpp"
+
+#include "core/error.hpp"
+#include "core/options.hpp"
+#include "mesh/geometry.hpp"
+#include "mesh/interfaces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace cdem {
+
+namespace {
+
+/// Components named by a word of x, y, z.
+PetscErrorCode ParseComponents(MPI_Comm comm, const OptionKey &key, const std::string &word, bool wanted[3]) {
+  PetscFunctionBeginUser;
+  std::fill_n(wanted, 3, false);
+  for (char c : word) {
+    CdemCheck(c >= 'x' && c <= 'z' && !wanted[c - 'x'], comm, "%s is '%s'; it is made of the letters x, y, z, each once",
+              Options::Spelled(key).c_str(), word.c_str());
+    wanted[c - 'x'] = true;
+  }
+  CdemCheck(!word.empty(), comm, "%s is empty; it is made of the letters x, y, z", Options::Spelled(key).c_str());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Place(const Mesh &mesh, Options &options, Boundary *b) {
+  PetscFunctionBeginUser;
+  const OptionKey key("boundary", b->name, "on");
+  std::string on = b->name;
+  PetscCall(options.Text(key, &on));
+  b->surface = Mesh::Find(mesh.surfaces, on);
+  b->point_set = Mesh::Find(mesh.point_sets, on);
+  CdemCheck(b->surface >= 0 || b->point_set >= 0, mesh.comm,
+            "boundary '%s': the mesh has no surface, line or point '%s' (give %s); surfaces: %s; lines and points: %s",
+            b->name.c_str(), on.c_str(), Options::Spelled(key).c_str(), Joined(mesh.surfaces).c_str(),
+            Joined(mesh.point_sets).c_str());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vector<std::string> &table_names, Boundary *b) {
+  PetscFunctionBeginUser;
+  auto key = [&](const char *k) { return OptionKey("boundary", b->name, k); };
+  PetscCall(Place(mesh, options, b));
+  std::string word;
+  bool set, wanted[3], any = false;
+  PetscCall(options.Text(key("fix"), &word, &set));
+  if (set) {
+    PetscCall(ParseComponents(mesh.comm, key("fix"), word, wanted));
+    for (int k = 0; k < 3; ++k)
+      if (wanted[k]) b->kind[k] = kVelocity;
+    any = true;
+  }
+  bool only[3] = {true, true, true}, components = false, moved[2];
+  PetscCall(options.Text(key("components"), &word, &components));
+  if (components) PetscCall(ParseComponents(mesh.comm, key("components"), word, only));
+  const std::pair<const char *, int> motions[] = {{"velocity", kVelocity}, {"displacement", kDisplacement}};
+  for (int m = 0; m < 2; ++m) {
+    double value[3];
+    PetscCall(options.Reals(key(motions[m].first), 3, value, &moved[m]));
+    if (!moved[m]) continue;
+    any = true;
+    for (int k = 0; k < 3; ++k)
+      if (only[k]) b->kind[k] = motions[m].second, b->value[k] = value[k];
+  }
+  CdemCheck(!(moved[0] && moved[1]), mesh.comm, "boundary '%s' prescribes both velocity and displacement: give one",
+            b->name.c_str());
+  CdemCheck(!components || moved[0] || moved[1], mesh.comm,
+            "%s: there is no velocity or displacement on boundary '%s' whose components it could choose",
+            Options::Spelled(key("components")).c_str(), b->name.c_str());
+  bool traction, pressure, gradient;
+  PetscCall(options.Reals(key("traction"), 3, b->traction, &traction));
+  PetscCall(options.Real(key("pressure"), &b->pressure, &pressure));
+  PetscCall(options.Real(key("gradient_z"), &b->gradient_z, &gradient));
+  CdemCheck(!gradient || (pressure != traction), mesh.comm,
+            "boundary '%s': gradient_z belongs to a pressure or to a traction; give one of them", b->name.c_str());
+  b->loaded = traction || pressure;
+  CdemCheck(!b->loaded || b->surface >= 0, mesh.comm, "boundary '%s': traction and pressure need a surface",
+            b->name.c_str());
+  CdemCheck(any || b->loaded, mesh.comm,
+            "boundary '%s' is declared but does nothing: give fix, displacement, velocity, traction or pressure",
+            b->name.c_str());
+  PetscCall(options.Text(key("table"), &word, &set));
+  if (set) {
+    const auto it = std::find(table_names.begin() + 1, table_names.end(), word);
+    CdemCheck(it != table_names.end(), mesh.comm, "%s: there is no table '%s'; declared with -tables: %s",
+              Options::Spelled(key("table")).c_str(), word.c_str(),
+              Joined({table_names.begin() + 1, table_names.end()}).c_str());
+    b->table = static_cast<int>(it - table_names.begin());
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// What one node collects before it becomes a row.
+struct Row {
+  int kind[3] = {kFree, kFree, kFree}, table[3] = {0, 0, 0}, watch = -1;
+  double value[3] = {0, 0, 0};
+  std::map<int, std::array<double, 3>> load;  // by table
+};
+
+void Prescribe(const Boundary &b, Row &row) {
+  for (int k = 0; k < 3; ++k)
+    if (b.kind[k] != kFree) row.kind[k] = b.kind[k], row.value[k] = b.value[k], row.table[k] = b.table;
+}
+
+/// Adds the integral of N_j t dA of one face to its nodes; pressure pushes against the outward normal.
+void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Face &face, std::map<PetscInt, Row> &rows) {
+  const ShapeInfo &info = Info(mesh.cell_shape[face.cell[0]]);
+  const int size = info.face_size[face.local[0]];
+  double x[4][3];
+  for (int j = 0; j < size; ++j)
+    std::copy_n(mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][j]]), 3, x[j]);
+  FacePoint points[4];
+  const int n = FacePoints(size, x, points);
+  const double tx = Dot(b.traction, b.traction);
+  for (int j = 0; j < size; ++j) {
+    const PetscInt node = FaceNode(mesh, nodes, face, j, 0);
+    if (node < 0 || node >= nodes.n_owned) continue;
+    std::array<double, 3> &load = rows[node].load[b.table];
+    for (int g = 0; g < n; ++g) {
+      double z = 0;
+      for (int i = 0; i < size; ++i) z += points[g].shape[i] * x[i][2];
+      const double area = std::sqrt(Dot(points[g].area, points[g].area));
+      // gradient_z belongs to whichever of the two is given: to a traction along its own direction
+      const double along = tx > 0 ? 1 + b.gradient_z * z / std::sqrt(tx) : 0;
+      const double p = tx > 0 ? b.pressure : b.pressure + b.gradient_z * z;
+      for (int k = 0; k < 3; ++k)
+        load[k] += points[g].shape[j] * (b.traction[k] * along * area - p * points[g].area[k]);
+    }
+  }
+}
+
+}  // namespace
+
+PetscErrorCode ReadBoundaries(const Mesh &mesh, Options &options, const std::vector<std::string> &table_names,
+                              std::vector<Boundary> *boundaries) {
+  PetscFunctionBeginUser;
+  std::vector<std::string> names;
+  PetscCall(options.Names("boundaries", &names));
+  options.Declare("boundary", names);
+  for (const std::string &name : names) {
+    Boundary b;
+    b.name = name;
+    PetscCall(ReadBoundary(mesh, options, table_names, &b));
+    boundaries->push_back(b);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vector<Boundary> &boundaries,
+                            std::vector<History> &histories, Tables *tables) {
+  PetscFunctionBeginUser;
+  PetscMPIInt rank;
+  PetscCallMPI(MPI_Comm_rank(mesh.comm, &rank));
+  std::map<PetscInt, Row> rows;
+  for (const Boundary &b : boundaries) {
+    if (b.point_set >= 0) {
+      std::vector<char> member(mesh.vertex_x.size() / 3, 0);
+      for (PetscInt v : mesh.set_vertices[b.point_set]) member[v] = 1;
+      for (PetscInt i = 0; i < nodes.n_owned; ++i)
+        if (member[nodes.vertex[i]]) Prescribe(b, rows[i]);
+      continue;
+    }
+    for (PetscInt f : mesh.surface_faces[b.surface]) {
+      const Face &face = mesh.faces[f];
+      const int size = Info(mesh.cell_shape[face.cell[0]]).face_size[face.local[0]];
+      for (int side = 0; side < (face.cell[1] >= 0 ? 2 : 1); ++side)
+        for (int j = 0; j < size; ++j) {
+          const PetscInt node = FaceNode(mesh, nodes, face, j, side);
+          if (node >= 0 && node < nodes.n_owned) Prescribe(b, rows[node]);
+        }
+      if (b.loaded) LoadFace(mesh, nodes, b, face, rows);
+    }
+  }
+  for (History &h : histories) {
+    if (h.rank != rank) continue;
+    Row &row = rows[h.node];
+    if (row.watch < 0) row.watch = tables->n_watch++;
+    h.slot = row.watch;
+  }
+  if (rows.empty()) PetscFunctionReturn(PETSC_SUCCESS);
+
+  NodeRecords &r = tables->records;
+  r.of_node.assign(nodes.n_owned, -1);
+  r.load_start.assign(1, 0);
+  for (const auto &[node, row] : rows) {
+    r.of_node[node] = r.n++;
+    r.kind.push_back(static_cast<std::uint8_t>(row.kind[0] | row.kind[1] << 2 | row.kind[2] << 4));
+    for (int k = 0; k < 3; ++k) r.value.push_back(row.value[k]), r.table.push_back(row.table[k]);
+    for (const auto &[table, load] : row.load) {
+      r.load_table.push_back(table);
+      r.load.insert(r.load.end(), load.begin(), load.end());
+    }
+    r.load_start.push_back(static_cast<int>(r.load_table.size()));
+    r.watch.push_back(row.watch);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem

@@ -1,0 +1,89 @@
+#include "mesh/interfaces.hpp"
+
+#include "core/error.hpp"
+#include "core/options.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+
+std::string Joined(const std::vector<std::string> &names) {
+  std::string all;
+  for (const std::string &name : names) all += (all.empty() ? "" : ", ") + name;
+  return all.empty() ? "(none)" : all;
+}
+
+static std::vector<std::string> SplitAtColons(const std::string &text) {
+  std::vector<std::string> parts(1);
+  for (char c : text) {
+    if (c == ':')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+static PetscErrorCode Region(const Mesh &mesh, const std::string &spelled, const std::string &name, int *region) {
+  PetscFunctionBeginUser;
+  *region = Mesh::Find(mesh.regions, name);
+  CdemCheck(*region >= 0, mesh.comm, "%s: the mesh has no region '%s'; its regions are: %s", spelled.c_str(),
+            name.c_str(), Joined(mesh.regions).c_str());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SelectInterfaces(const Mesh &mesh, Options &options, std::vector<std::string> *names,
+                                std::vector<int> *face_interface) {
+  PetscFunctionBeginUser;
+  PetscCall(options.Names("interfaces", names));
+  options.Declare("interface", *names);
+  face_interface->assign(mesh.faces.size(), -1);
+  for (std::size_t i = 0; i < names->size(); ++i) {
+    const std::string &name = (*names)[i];
+    const OptionKey key("interface", name, "on");
+    std::string on = "surface:" + name;
+    PetscCall(options.Text(key, &on));
+    const std::string spelled = Options::Spelled(key) + " " + on;
+    const std::vector<std::string> part = SplitAtColons(on);
+    const int id = static_cast<int>(i);
+    auto claim = [&](auto &&wanted) {
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const Face &face = mesh.faces[f];
+        if (face.cell[1] >= 0 && wanted(mesh.cell_region[face.cell[0]], mesh.cell_region[face.cell[1]]))
+          (*face_interface)[f] = id;
+      }
+    };
+    if (part[0] == "surface" && part.size() == 2) {
+      const int surface = Mesh::Find(mesh.surfaces, part[1]);
+      CdemCheck(surface >= 0, mesh.comm, "%s: the mesh has no surface '%s'; its surfaces are: %s", spelled.c_str(),
+                part[1].c_str(), Joined(mesh.surfaces).c_str());
+      for (PetscInt f : mesh.surface_faces[surface])
+        if (mesh.faces[f].cell[1] >= 0) (*face_interface)[f] = id;
+    } else if (part[0] == "between" && part.size() == 3) {
+      int a, b;
+      PetscCall(Region(mesh, spelled, part[1], &a));
+      PetscCall(Region(mesh, spelled, part[2], &b));
+      CdemCheck(a != b, mesh.comm, "%s: the two regions are the same; for the faces inside one region use inside:%s",
+                spelled.c_str(), part[1].c_str());
+      claim([a, b](int p, int q) { return (p == a && q == b) || (p == b && q == a); });
+    } else if (part[0] == "inside" && part.size() == 2) {
+      int a;
+      PetscCall(Region(mesh, spelled, part[1], &a));
+      claim([a](int p, int q) { return p == a && q == a; });
+    } else if (on == "all") {
+      claim([](int, int) { return true; });
+    } else {
+      CdemCheck(false, mesh.comm, "%s: not understood; it is surface:S, between:A:B, inside:A or all", spelled.c_str());
+    }
+    PetscInt count = 0;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+      count += (*face_interface)[f] == id && mesh.faces[f].cell[0] < mesh.n_owned;
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
+    CdemCheck(count > 0, mesh.comm,
+              "%s: interface '%s' has no face: the faces asked for lie on the outer boundary, or there are none",
+              spelled.c_str(), name.c_str());
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem

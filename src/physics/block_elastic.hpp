@@ -1,0 +1,36 @@
+// Linear elastic blocks (Eq. 1 of the method's paper): sigma = lambda tr(eps) 1 + 2 mu eps.
+#pragma once
+#include "physics/law.hpp"
+
+namespace cdem {
+
+struct Elastic {
+  static constexpr const char *kName = "elastic";
+  static constexpr bool kLinear = true;  ///< the forces are linear in u: beta damping acts on u + beta v for free
+  enum { kLambda, kMu, kParams };        ///< Pa
+
+  static constexpr std::array<Property, 2> kProperties = {{{"young", "Pa", 0, kPropertyInf, kPropertyOpen},
+                                             {"poisson", "", -1, 0.5, kPropertyOpen}}};
+
+  /// Parameters of the point function from the properties above.
+  static void Derive(const double *property, double *param) {
+    double e = property[0], nu = property[1];
+    param[kLambda] = e * nu / ((1 + nu) * (1 - 2 * nu));
+    param[kMu] = e / (2 * (1 + nu));
+  }
+
+  /// Stress [Pa] of a strain (true shears) at one Gauss point.
+  template <class T>
+  static CDEM_HD void Stress(const T *param, const T strain[6], T stress[6]) {
+    T pressure = param[kLambda] * (strain[kXX] + strain[kYY] + strain[kZZ]);
+    T two_mu = param[kMu] + param[kMu];
+    stress[kXX] = two_mu * strain[kXX] + pressure;
+    stress[kYY] = two_mu * strain[kYY] + pressure;
+    stress[kZZ] = two_mu * strain[kZZ] + pressure;
+    stress[kXY] = two_mu * strain[kXY];
+    stress[kYZ] = two_mu * strain[kYZ];
+    stress[kXZ] = two_mu * strain[kXZ];
+  }
+};
+
+}  // namespace cdem

@@ -1,0 +1,129 @@
+// The part of Simulation that speaks: the header at the start, the summary and the timing at the end.
+#include "cdem_config.h"
+#include "simulation.hpp"
+
+namespace cdem {
+
+static std::string PetscVersion() {
+  char version[256];
+  if (PetscGetVersion(version, sizeof version)) return "unknown";
+  const std::string text = version;  // "Petsc Release Version 3.18.5, Feb 24, 2023"
+  const std::size_t at = text.find("Version ");
+  return at == std::string::npos ? text : text.substr(at + 8, text.find(',') - at - 8);
+}
+
+static std::string Names(const std::int64_t *n_cells) {
+  std::string text;
+  for (int s = 0; s < kShapes; ++s)
+    if (n_cells[s] > 0) text += (text.empty() ? "" : ", ") + std::to_string(n_cells[s]) + " " + kShapeInfo[s].name;
+  return text;
+}
+
+PetscErrorCode Simulation::PrintHeader() {
+  PetscFunctionBeginUser;
+  PetscMPIInt ranks;
+  PetscCallMPI(MPI_Comm_size(comm_, &ranks));
+  auto line = [&](const char *what, const std::string &text) {
+    return PetscPrintf(comm_, "%-11s %s\n", what, text.c_str());
+  };
+  char text[256];
+  PetscCall(PetscPrintf(comm_, "cdem %s (%s), PETSc %s%s\n", CDEM_VERSION, CDEM_GIT, PetscVersion().c_str(),
+#ifdef CDEM_NO_CONTRACT
+                        ", without fma contraction"
+#else
+                        ""
+#endif
+                        ));
+  PetscCall(line("device", backend_->Name() + ", " + std::to_string(ranks) + (ranks > 1 ? " ranks" : " rank")));
+  PetscCall(line("way", "reference: forces, springs, sums and update one after the other, in global order"));
+  PetscCall(line("elements", Names(n_cells_)));
+  PetscCall(line("nodes", std::to_string(nodes_.n_global) + " in " + std::to_string(nodes_.n_blocks) +
+                              (nodes_.n_blocks == 1 ? " block" : " blocks")));
+  if (n_interface_faces_ > 0)
+    PetscCall(line("interfaces", std::to_string(n_interface_faces_) + " faces, " + std::to_string(n_springs_) + " springs"));
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (joints_[i].kn < 0 || joints_[i].ks < 0) {
+      std::snprintf(text, sizeof text,
+                    "%s: stiffness %g times that of the blocks: where every face is one, the body is %.3g times as stiff",
+                    interface_names_[i].c_str(), joints_[i].stiffness_factor, 1 / (1 + 1 / joints_[i].stiffness_factor));
+      PetscCall(line("", text));
+    }
+  std::snprintf(text, sizeof text, "dt %.6g s", dt_);
+  std::string step = text;
+  if (bound_known_) {
+    std::snprintf(text, sizeof text, ", %.3g of the critical step %.6g s (a rigorous bound)", dt_ / bound_.dt, bound_.dt);
+    step += text;
+  } else {
+    step += ", the critical step was not computed";
+  }
+  PetscCall(line("step", step));
+  PetscLogDouble bytes = 0;
+  PetscCall(PetscMemoryGetCurrentUsage(&bytes));
+  double total = bytes;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_DOUBLE, MPI_SUM, comm_));
+  std::snprintf(text, sizeof text, "%.3g GiB host, %.3g GiB state and tables of rank 0 on the device", total / (1 << 30),
+                static_cast<double>(backend_->Bytes()) / (1 << 30));
+  PetscCall(line("memory", text));
+  for (const History &h : histories_) {
+    std::snprintf(text, sizeof text, "%s of %s at the node (%g, %g, %g)", h.of.c_str(), h.name.c_str(), h.found[0],
+                  h.found[1], h.found[2]);
+    PetscCall(line("history", text));
+  }
+  PetscBool ts_monitor, batch_set;
+  PetscInt batch;
+  PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ts_monitor", &ts_monitor));
+  PetscCall(TSCentralGetBatch(ts_, &batch, &batch_set));
+  if (ts_monitor && !batch_set)
+    PetscCall(line("note", "-ts_monitor prints when a batch of steps ends; for every N steps give -ts_central_batch N"));
+  for (const std::string &remark : remarks_) PetscCall(line("note", remark));
+  std::snprintf(text, sizeof text, "%.3g s", wall_setup_);
+  PetscCall(line("set-up", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+nlohmann::json Simulation::Summary() const {
+  nlohmann::json s, elements;
+  PetscMPIInt ranks = 1;
+  MPI_Comm_size(comm_, &ranks);
+  double n = 0;
+  for (int shape = 0; shape < kShapes; ++shape) {
+    if (n_cells_[shape] > 0) elements[kShapeInfo[shape].name] = n_cells_[shape];
+    n += static_cast<double>(n_cells_[shape]);
+  }
+  s["version"] = CDEM_VERSION;
+  s["git"] = CDEM_GIT;
+  s["petsc"] = PetscVersion();
+  s["device"] = backend_->Name();
+  s["way"] = "reference";
+  s["ranks"] = ranks;
+  s["elements"] = elements;
+  s["nodes"] = nodes_.n_global;
+  s["blocks"] = nodes_.n_blocks;
+  s["interfaces"] = n_interface_faces_;
+  s["springs"] = n_springs_;
+  s["broken_springs"] = static_cast<std::int64_t>(last_.broken);
+  s["dt"] = dt_;
+  s["dt_critical"] = bound_known_ ? nlohmann::json(bound_.dt) : nlohmann::json();
+  s["steps"] = steps_;
+  s["time"] = time_;
+  s["wall"] = {{"setup", wall_setup_}, {"solve", wall_solve_}, {"output", wall_output_}};
+  s["element_steps_per_second"] = wall_solve_ > 0 ? n * static_cast<double>(steps_) / wall_solve_ : 0;
+  PetscLogDouble bytes = 0;
+  (void)PetscMemoryGetCurrentUsage(&bytes);
+  s["memory"] = {{"host", bytes}, {"device", device_ == "cuda" ? static_cast<double>(backend_->Bytes()) : 0.0}};
+  s["energy"] = {{"kinetic", last_.kinetic}, {"strain", last_.strain}, {"spring", last_.spring}, {"form", last_.form},
+                 {"error", nullptr}};
+  return s;
+}
+
+PetscErrorCode Simulation::Finish() {
+  PetscFunctionBeginUser;
+  const nlohmann::json summary = Summary();
+  PetscCall(PetscPrintf(comm_, "done        %lld steps to %.6g s; solve %.4g s, output %.3g s, %.4g M element-steps/s\n",
+                        static_cast<long long>(steps_), time_, wall_solve_, wall_output_,
+                        summary["element_steps_per_second"].get<double>() / 1e6));
+  if (!output_dir_.empty()) PetscCall(WriteSummary(comm_, output_dir_, summary));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem

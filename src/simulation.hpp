@@ -1,0 +1,81 @@
+// One run: owns mesh, tables, state, TS and what watches them; set-up in reading order.
+#pragma once
+#include "core/options.hpp"
+#include "forces/backend.hpp"
+#include "forces/step_bound.hpp"
+#include "io/watch.hpp"
+#include "time/ts_central.hpp"
+
+namespace cdem {
+
+class Simulation final : public Stepper {
+ public:
+  explicit Simulation(MPI_Comm comm) : comm_(comm), options_(comm) {}
+  ~Simulation() override;
+
+  /// Reads and checks everything, builds tables and state, prints the header. Nothing is written before all is checked.
+  PetscErrorCode SetUp();
+  /// Runs to the end.
+  PetscErrorCode Solve();
+  /// Last rows of the histories, summary.json, timing lines.
+  PetscErrorCode Finish();
+
+  PetscErrorCode Advance(const StepPlan &plan) override;
+  PetscInt StepsToNext(PetscInt step, PetscReal time, PetscReal dt) override;
+
+ private:
+  PetscErrorCode ReadScene();
+  PetscErrorCode BuildModel();
+  PetscErrorCode ChooseStep();
+  PetscErrorCode CreateBackend();
+  PetscErrorCode CreateTS();
+  PetscErrorCode SetInitialVelocity();
+  PetscErrorCode PrintHeader();
+  nlohmann::json Summary() const;
+  static PetscErrorCode MonitorTS(TS ts, PetscInt step, PetscReal time, Vec u, void *ctx);
+  PetscErrorCode Watch(PetscInt step, double time);
+  PetscErrorCode WriteFrame(PetscInt step, double time);
+  PetscErrorCode ReportFailure(const StepPlan &plan, const Failure &failure);
+  StepArgs MakeArgs(double dt_old, double dt) const;
+  void FillSchedule(double t, double dt, double *row) const;
+
+  MPI_Comm comm_;
+  Options options_;
+  Mesh mesh_;
+  Nodes nodes_;
+  std::vector<std::string> interface_names_, table_names_, remarks_;
+  std::vector<int> face_interface_;
+  std::vector<Material> materials_;
+  std::vector<Joint> joints_;
+  std::vector<TimeTable> time_tables_;
+  std::vector<Boundary> boundaries_;
+  std::vector<History> histories_;
+  Tables tables_;
+  std::unique_ptr<Backend> backend_;
+  Vec u_ = nullptr, v_ = nullptr;
+  TS ts_ = nullptr;
+
+  // time
+  double dt_ = 0, safety_ = 0.9;
+  StepBound bound_;
+  bool bound_known_ = false, has_end_time_ = false, has_end_step_ = false;
+  double end_time_ = 0;
+  PetscInt end_step_ = PETSC_INT_MAX, last_step_ = PETSC_INT_MAX;
+
+  // watching
+  std::string output_dir_, device_ = "auto";
+  bool output_overwrite_ = false;
+  Interval frame_interval_;
+  Monitors monitors_;
+  HistoryRecorder recorder_;
+  FieldOutput fields_;
+
+  // figures of the run
+  double wall_setup_ = 0, wall_solve_ = 0, wall_output_ = 0, wall_start_ = 0;
+  std::int64_t n_cells_[kShapes] = {0, 0, 0}, n_interface_faces_ = 0, n_springs_ = 0;
+  PetscInt steps_ = 0;
+  double time_ = 0;
+  Observed last_;
+};
+
+}  // namespace cdem

@@ -1,0 +1,36 @@
+// TS type "central": central differences with velocities at half steps, many steps in one TSStep.
+#pragma once
+#include "core/petsc.hpp"
+
+namespace cdem {
+
+/// A run of equal steps: step number first + j is at time base + (offset + j) dt.
+struct StepPlan {
+  PetscInt first = 0;          ///< ts->steps at its beginning
+  PetscReal base = 0;          ///< s
+  PetscInt offset = 0;
+  PetscReal dt = 0, dt_old = 0;  ///< s; dt_old = 0 at the very beginning
+  PetscInt n = 0;
+  PetscReal Time(PetscInt j) const { return base + static_cast<PetscReal>(offset + j) * dt; }
+};
+
+/// Who does the steps.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  virtual PetscErrorCode Advance(const StepPlan &plan) = 0;
+  /// How many steps may pass from this one on until somebody wants to see the state (at least 1).
+  virtual PetscInt StepsToNext(PetscInt step, PetscReal time, PetscReal dt) = 0;
+};
+
+/// Registers the type; once after PetscInitialize.
+PetscErrorCode RegisterTSCentral();
+/// Creates a TS of this type for a stepper (borrowed) and the vectors of TS2SetSolution. Options: -ts_central_batch, and
+/// TS's own.
+PetscErrorCode CreateTSCentral(MPI_Comm comm, Stepper *stepper, Vec u, Vec v, TS *ts);
+/// dt of the last step taken (0 before the first).
+PetscErrorCode TSCentralGetLastStep(TS ts, PetscReal *dt);
+/// Largest number of steps in one TSStep; set: whether the user gave it.
+PetscErrorCode TSCentralGetBatch(TS ts, PetscInt *batch, PetscBool *set);
+
+}  // namespace cdem

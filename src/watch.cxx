@@ -1,0 +1,77 @@
+// The part of Simulation that looks: when somebody wants the state, what they get, and the end of the run.
+#include "core/events.hpp"
+#include "simulation.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+
+PetscInt Simulation::StepsToNext(PetscInt step, PetscReal time, PetscReal dt) {
+  PetscInt n = monitors_.ToNext(step, time, dt);
+  if (!output_dir_.empty()) n = std::min(n, frame_interval_.ToNext(step, time, dt));
+  return n;
+}
+
+PetscErrorCode Simulation::MonitorTS(TS, PetscInt step, PetscReal time, Vec, void *ctx) {
+  return static_cast<Simulation *>(ctx)->Watch(step, time);
+}
+
+PetscErrorCode Simulation::Watch(PetscInt step, double time) {
+  PetscFunctionBeginUser;
+  double dt;
+  PetscCall(TSCentralGetLastStep(ts_, &dt));
+  const bool last = step >= end_step_ || (has_end_time_ && time >= end_time_);
+  steps_ = step;
+  time_ = time;
+  const double reached = dt > 0 ? dt : dt_;
+  const double begin = MPI_Wtime();
+  if (monitors_.Due(step, time, reached, last)) {
+    Sight sight;
+    sight.step = step;
+    sight.last_step = last_step_;
+    sight.time = time;
+    for (std::int64_t n : n_cells_) sight.elements += static_cast<double>(n);
+    if (monitors_.Observes(step, time, reached, last)) {
+      PetscCall(PetscLogEventBegin(events.observe, nullptr, nullptr, nullptr, nullptr));
+      std::vector<double> schedule(3 * time_tables_.size());
+      FillSchedule(time, reached, schedule.data());
+      PetscCall(backend_->Observe(MakeArgs(dt, reached), schedule.data(), &sight.observed));
+      PetscCall(SumOverRanks(comm_, &sight.observed));
+      last_ = sight.observed;
+      PetscCall(PetscLogEventEnd(events.observe, nullptr, nullptr, nullptr, nullptr));
+    }
+    sight.wall = MPI_Wtime() - wall_start_ - wall_output_;
+    PetscCall(monitors_.Print(sight, reached, last));
+  }
+  const bool frame = step == 0 || last || frame_interval_.Due(step, time, reached);
+  if (!output_dir_.empty() && (frame || last)) PetscCall(WriteFrame(step, time));
+  wall_output_ += MPI_Wtime() - begin;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::WriteFrame(PetscInt step, double time) {
+  PetscFunctionBeginUser;
+  PetscCall(PetscLogEventBegin(events.frame, nullptr, nullptr, nullptr, nullptr));
+  const double *u, *v;
+  const std::vector<SpringHistory> *history;
+  PetscCall(backend_->Download(&u, &v, &history));
+  double dt;
+  PetscCall(TSCentralGetLastStep(ts_, &dt));
+  const double reached = dt > 0 ? dt : dt_;
+  std::vector<double> schedule(3 * time_tables_.size()), v_now, stress(6 * static_cast<std::size_t>(mesh_.n_owned));
+  FillSchedule(time, reached, schedule.data());
+  ElementResults elements;
+  SpringResults springs;
+  elements.stress = stress.data();
+  springs.want_each = true;
+  PetscCall(ObserveOnHost(tables_, static_cast<int>(mesh_.n_owned), u, v, *history, MakeArgs(dt, reached),
+                          schedule.data(), &elements, &springs, &v_now, &last_));
+  PetscCall(SumOverRanks(comm_, &last_));
+  PetscCall(fields_.Write(step, time, u, v_now, stress, springs));
+  const bool last = step >= end_step_ || (has_end_time_ && time >= end_time_);
+  if (last && !recorder_.Empty()) PetscCall(recorder_.RecordLast(step, time, u, v_now.data()));
+  PetscCall(PetscLogEventEnd(events.frame, nullptr, nullptr, nullptr, nullptr));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem
