@@ -1,0 +1,148 @@
+// The registry. Rows of one family stand together; sections begin at the rows that OptionSections names.
+#include "core/option_names.hpp"
+
+#include <algorithm>
+#include <deque>
+
+namespace cdem {
+
+static std::vector<OptionSpec> &Registry() {
+  using T = OptionType;
+  static std::vector<OptionSpec> specs = {
+      // clang-format off
+      {"mesh", T::kText, "", "required", "`box`, or a gmsh file (.msh of format 2.2 or 4.1) of hexahedra, tetrahedra and wedges", ""},
+      {"mesh_box_cells", T::kInts, "", "required by box", "cells of the box along x, y, z", ""},
+      {"mesh_box_size", T::kReals, "m", "required by box", "edges of the box", ""},
+      {"mesh_box_origin", T::kReals, "m", "0,0,0", "its corner of lowest x, y, z", ""},
+      {"mesh_box_shape", T::kWord, "", "hex", "elements: hexahedra, six tetrahedra a cell, or two wedges a cell", "hex,tet,wedge"},
+      {"mesh_box_jitter", T::kReal, "", "0", "inner vertices move at random by up to this share of the cell size along each axis; below 0.5", ""},
+      {"seed", T::kInt, "", "1", "start of all random numbers", ""},
+
+      {"block_<region>_law", T::kWord, "", "elastic", "law of the material", "elastic"},
+      {"block_<region>_young", T::kReal, "Pa", "required", "Young's modulus", ""},
+      {"block_<region>_poisson", T::kReal, "", "required", "Poisson's ratio, above -1 and below 0.5", ""},
+      {"block_<region>_density", T::kReal, "kg/m^3", "required", "density", ""},
+
+      {"interfaces", T::kNames, "", "", "declares the interfaces; where two claim a face the later one has it", ""},
+      {"interface_<name>_on", T::kText, "", "the surface of its name", "its faces: `surface:S`; `between:A:B`, from region A to B; `inside:A`, all faces inside region A; `all`", ""},
+      {"interface_<name>_law", T::kWord, "", "elastic", "law of the springs", "elastic,brittle"},
+      {"interface_<name>_kn", T::kReal, "Pa/m", "by stiffness_factor", "normal stiffness per area", ""},
+      {"interface_<name>_ks", T::kReal, "Pa/m", "by stiffness_factor", "shear stiffness per area", ""},
+      {"interface_<name>_stiffness_factor", T::kReal, "", "20", "without `kn` (`ks`): this times the P-wave (shear) modulus of the softer side over the distance of the two cell centres", ""},
+      {"interface_<name>_tension", T::kReal, "Pa", "required by brittle", "tensile strength; cut to cohesion / tan(friction)", ""},
+      {"interface_<name>_cohesion", T::kReal, "Pa", "required by brittle", "cohesion", ""},
+      {"interface_<name>_friction", T::kReal, "degrees", "required by brittle", "angle of friction", ""},
+      {"interface_<name>_initial", T::kWord, "", "intact", "law brittle: state at the start", "intact,broken"},
+      {"interface_<name>_keep_tension", T::kFlag, "", "false", "law brittle: the tensile strength outlives a failure in shear", ""},
+
+      {"boundaries", T::kNames, "", "", "declares the boundaries; where two prescribe one component the later one has it, loads add", ""},
+      {"boundary_<name>_on", T::kText, "", "its name", "the surface, line or point of the mesh", ""},
+      {"boundary_<name>_fix", T::kText, "", "", "components that do not move, such as `xyz` or `z`", ""},
+      {"boundary_<name>_displacement", T::kReals, "m", "", "prescribed displacement, times the table", ""},
+      {"boundary_<name>_velocity", T::kReals, "m/s", "", "prescribed velocity, times the table", ""},
+      {"boundary_<name>_components", T::kText, "", "xyz", "components that displacement or velocity prescribes; the others stay free", ""},
+      {"boundary_<name>_traction", T::kReals, "Pa", "", "force per area, times the table (surfaces)", ""},
+      {"boundary_<name>_pressure", T::kReal, "Pa", "", "pressure against the outward normal, times the table (surfaces)", ""},
+      {"boundary_<name>_gradient_z", T::kReal, "Pa/m", "0", "times z, added to the pressure or to the size of the traction", ""},
+      {"boundary_<name>_table", T::kText, "", "", "the table that multiplies what is prescribed; without it 1 from the start", ""},
+
+      {"gravity", T::kReals, "m/s^2", "0,0,0", "acceleration of gravity", ""},
+      {"velocity", T::kReals, "m/s", "0,0,0", "initial velocity of every region", ""},
+      {"velocity_<region>", T::kReals, "m/s", "that of every region", "initial velocity of a region", ""},
+
+      {"tables", T::kNames, "", "", "declares the time tables", ""},
+      {"table_<name>_type", T::kWord, "", "required", "constant: 1; ramp: from 0 to 1 over the delay; sine: sin(2 pi f (t - delay)), 0 before; ricker: Ricker's wavelet with its peak of 1 at the delay; file: from a file", "constant,ramp,sine,ricker,file"},
+      {"table_<name>_frequency", T::kReal, "Hz", "required by sine, ricker", "frequency f", ""},
+      {"table_<name>_delay", T::kReal, "s", "0; required by ramp", "length of the ramp, start of the sine, peak of the wavelet", ""},
+      {"table_<name>_amplitude", T::kReal, "", "1", "multiplies the table", ""},
+      {"table_<name>_file", T::kText, "", "required by file", "lines `time value` or `time,value`, times ascending, `#` begins a comment; linear between them, constant outside", ""},
+
+      {"damping_alpha", T::kReal, "1/s", "0", "Rayleigh damping by mass", ""},
+      {"damping_beta", T::kReal, "s", "0", "Rayleigh damping by stiffness; it lowers the critical step", ""},
+
+      {"solve", T::kWord, "", "dynamic", "what is computed: motion in time", "dynamic"},
+      {"ts_central_safety", T::kReal, "", "0.9", "the step, unless `-ts_dt` gives it, is this times the critical one, fitted to the end time", ""},
+      {"ts_central_check", T::kWord, "", "error", "what to do when `-ts_dt` is above the critical step", "error,warn,off"},
+      {"ts_central_batch", T::kInt, "", "up to the next thing due", "steps that TS takes as one; PETSc's monitors see batch ends", ""},
+      {"deterministic", T::kFlag, "", "false", "only ways of computing that repeat to the last bit", ""},
+
+      {"monitor_progress", T::kViewer, "", "", "prints step, time, rate and time left", ""},
+      {"monitor_progress_interval", T::kInt, "steps", "20 lines a run", "every so many steps", ""},
+      {"monitor_progress_interval_time", T::kReal, "s", "", "every so many seconds of the scene", ""},
+      {"monitor_energy", T::kViewer, "", "", "prints energies and momentum", ""},
+      {"monitor_energy_interval", T::kInt, "steps", "100", "every so many steps", ""},
+      {"monitor_energy_interval_time", T::kReal, "s", "", "every so many seconds of the scene", ""},
+      {"monitor_convergence", T::kViewer, "", "", "prints kinetic energy, unbalanced force ratio and broken springs", ""},
+      {"monitor_convergence_interval", T::kInt, "steps", "100", "every so many steps", ""},
+      {"monitor_convergence_interval_time", T::kReal, "s", "", "every so many seconds of the scene", ""},
+      {"histories", T::kNames, "", "", "declares the histories, columns of histories.csv", ""},
+      {"history_<name>_at", T::kReals, "m", "required", "the place; the nearest node is taken, at a split vertex that of the lowest-numbered cell", ""},
+      {"history_<name>_of", T::kWord, "", "required", "the quantity", "displacement_x,displacement_y,displacement_z,velocity_x,velocity_y,velocity_z"},
+      {"history_interval", T::kInt, "steps", "1", "every so many steps", ""},
+
+      {"output", T::kText, "", "no files", "the folder for all results; one that holds results is refused", ""},
+      {"output_overwrite", T::kFlag, "", "false", "replaces the results in the folder", ""},
+      {"output_interval", T::kInt, "steps", "first and last step", "a frame of fields every so many steps", ""},
+      {"output_interval_time", T::kReal, "s", "", "a frame of fields every so many seconds of the scene", ""},
+      {"output_fields", T::kNames, "", "all", "the fields of a frame", "displacement,velocity,stress,region,opening,slip,normal_stress,shear_stress,state,interface"},
+
+      {"device", T::kWord, "", "auto", "where it is computed; auto: cuda if this build and machine have it", "auto,cpu,cuda"},
+      {"central_way", T::kWord, "", "auto", "way of computing a step", "auto,reference"},
+      {"elements_per_block", T::kInt, "", "128", "elements that a thread block of the GPU takes; a multiple of 32 from 32 to 256", ""},
+      {"help_options", T::kWord, "", "", "prints these options and ends: as text, or as the page docs/options.md", "plain,markdown"},
+      // clang-format on
+  };
+  return specs;
+}
+
+const std::vector<OptionSpec> &OptionSpecs() { return Registry(); }
+
+const std::vector<OptionSection> &OptionSections() {
+  static const std::vector<OptionSection> sections = {
+      {"mesh", "Mesh",
+       "The box is region `box`; its sides are the surfaces `xmin`, `xmax`, `ymin`, `ymax`, `zmin`, `zmax`."},
+      {"block_<region>_law", "Blocks", "Every region of the mesh needs its material."},
+      {"interfaces", "Interfaces", "Faces at which the mesh is split and joined by springs."},
+      {"boundaries", "Boundaries", ""},
+      {"gravity", "Gravity and initial velocity", ""},
+      {"tables", "Time tables", ""},
+      {"damping_alpha", "Damping", ""},
+      {"solve", "Solution", "How long it runs is said with PETSc's `-ts_max_time` or `-ts_max_steps` (below)."},
+      {"monitor_progress", "Watching",
+       "A monitor prints to the terminal, or where PETSc's viewer syntax says: `-monitor_energy ascii:energy.txt`."},
+      {"output", "Output", ""},
+      {"device", "Machine and help", ""},
+  };
+  return sections;
+}
+
+static std::deque<std::string> &Texts() {
+  static std::deque<std::string> texts;  // never moves what it holds
+  return texts;
+}
+
+static const char *Keep(const std::string &text) {
+  Texts().push_back(text);
+  return Texts().back().c_str();
+}
+
+void AddOption(const OptionSpec &spec) {
+  std::vector<OptionSpec> &specs = Registry();
+  const auto same = [&](const OptionSpec &other) { return std::string(other.name) == spec.name; };
+  const auto found = std::find_if(specs.begin(), specs.end(), same);
+  if (found != specs.end()) {
+    std::vector<std::string> choices = SplitList(found->choices);
+    std::string all = found->choices;
+    for (const std::string &word : SplitList(spec.choices))
+      if (std::find(choices.begin(), choices.end(), word) == choices.end()) all += (all.empty() ? "" : ",") + word;
+    if (all != found->choices) found->choices = Keep(all);
+    return;
+  }
+  auto place = specs.end();
+  for (auto row = specs.begin(); row != specs.end(); ++row)
+    if (OptionPattern(*row).family == OptionPattern(spec).family) place = row + 1;
+  specs.insert(place,
+               {Keep(spec.name), spec.type, Keep(spec.unit), Keep(spec.fallback), Keep(spec.text), Keep(spec.choices)});
+}
+
+}  // namespace cdem
