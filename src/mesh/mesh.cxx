@@ -1,0 +1,104 @@
+#include "mesh/mesh.hpp"
+
+#include "core/error.hpp"
+#include "core/options.hpp"
+#include "mesh/source.hpp"
+
+#include <cstdio>
+
+namespace cdem {
+
+Mesh::~Mesh() {
+  PetscBool finalized = PETSC_FALSE;
+  if (PetscFinalized(&finalized) || finalized) return;
+  (void)PetscSFDestroy(&cell_sf);
+  (void)DMDestroy(&dm);
+}
+
+int Mesh::Find(const std::vector<std::string> &list, const std::string &name) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i] == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+std::string PlaceText(const double x[3]) {
+  char text[100];
+  std::snprintf(text, sizeof text, "(%g, %g, %g)", x[0], x[1], x[2]);
+  return text;
+}
+
+PetscErrorCode BroadcastText(MPI_Comm comm, std::string *text) {
+  PetscFunctionBeginUser;
+  unsigned long size = text->size();
+  PetscCallMPI(MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm));
+  text->resize(size);
+  PetscCallMPI(MPI_Bcast(text->data(), static_cast<int>(size), MPI_CHAR, 0, comm));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+// PETSc's own options for meshes (-dm_refine, -dm_plex_scale, ...) act on the serial mesh: numbers must not depend on ranks.
+static PetscErrorCode ApplyPetscOptions(MeshSource *source) {
+  PetscFunctionBeginUser;
+  PetscInt cells[2];
+  MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(source->dm));
+  PetscCall(DMPlexGetHeightStratum(source->dm, 0, &cells[0], &cells[1]));
+  const PetscInt before = cells[1] - cells[0];
+  PetscCall(DMPlexDistributeSetDefault(source->dm, PETSC_FALSE));
+  PetscCall(DMSetFromOptions(source->dm));
+
+  PetscBool distributed, reordered;
+  PetscCall(DMPlexIsDistributed(source->dm, &distributed));
+  CdemCheck(!distributed, comm, "-dm_distribute: cdem distributes the mesh itself; take the option away");
+  PetscCall(PetscOptionsHasName(nullptr, nullptr, "-dm_plex_reorder", &reordered));
+  PetscCall(DMPlexGetHeightStratum(source->dm, 0, &cells[0], &cells[1]));
+  if (cells[1] - cells[0] != before || reordered) source->cell_number.clear();
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+// With one layer of overlap every rank sees the whole star of the vertices of its own cells.
+static PetscErrorCode Distribute(DM serial, PetscSF *migration, DM *dm) {
+  PetscFunctionBeginUser;
+  PetscPartitioner partitioner;
+  PetscCall(DMSetBasicAdjacency(serial, PETSC_FALSE, PETSC_TRUE));
+  PetscCall(DMPlexGetPartitioner(serial, &partitioner));
+  PetscCall(PetscPartitionerSetFromOptions(partitioner));
+  PetscCall(DMPlexDistribute(serial, 1, migration, dm));
+  if (!*dm) {  // one rank
+    *dm = serial;
+    PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(serial)));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CreateMesh(MPI_Comm comm, Options &options, Mesh *mesh) {
+  PetscFunctionBeginUser;
+  MeshSource source;
+  std::string file;
+  bool given = false;
+  PetscCall(options.Text("mesh", &file, &given));
+  CdemCheck(given, comm, "no mesh: give -mesh FILE.msh (gmsh, format 2.2 or 4.1) or -mesh box");
+  if (file == "box") {
+    PetscCall(CreateBox(comm, options, &source));
+  } else {
+    PetscCall(ReadGmsh(comm, file, &source));
+    PetscCall(CheckTopology(&source));
+  }
+  PetscCall(ApplyPetscOptions(&source));
+
+  PetscSF migration = nullptr;
+  mesh->comm = comm;
+  PetscCall(Distribute(source.dm, &migration, &mesh->dm));
+  std::vector<PetscInt> cell_point;
+  PetscCall(NumberCells(source.dm, mesh->dm, migration, mesh, &cell_point));
+  PetscCall(PetscSFDestroy(&migration));
+  PetscCall(DMDestroy(&source.dm));
+  PetscCall(FlattenMesh(source, mesh->dm, cell_point, mesh));
+  PetscCall(CheckGeometry(source, *mesh));
+  mesh->remarks = source.remarks;
+  PetscCall(PetscObjectSetName(reinterpret_cast<PetscObject>(mesh->dm), "mesh"));
+  PetscCall(DMViewFromOptions(mesh->dm, nullptr, "-dm_view"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem
