@@ -1,0 +1,120 @@
+"""Runs cdem on a scene given as a dict of options and reads what it wrote."""
+import csv
+import json
+import os
+import subprocess
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none"]
+
+
+def program():
+    """Path of the program under test: environment CDEM, or the CPU build of this source tree."""
+    return os.environ.get("CDEM", str(ROOT / "build" / "cpu" / "cdem"))
+
+
+def as_text(value):
+    """The value of an option as PETSc reads it; numbers keep all their digits."""
+    if isinstance(value, bool):
+        return "1" if value else "0"
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return ",".join(as_text(v) for v in value)
+    return str(value)
+
+
+def environment():
+    env = dict(os.environ)
+    env.setdefault("OMPI_ALLOW_RUN_AS_ROOT", "1")
+    env.setdefault("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
+    env.setdefault("OMP_NUM_THREADS", "1")
+    return env
+
+
+class Failed(AssertionError):
+    """The program ended with an exit code other than 0."""
+
+
+def call(folder, options, ranks=1, timeout=600, extra=()):
+    """Runs the program in folder with the options in a file scene.txt (so that the scene can be run again by hand)."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    lines = [f"-{key}" if value is None else f"-{key} {as_text(value)}" for key, value in options.items()]
+    (folder / "scene.txt").write_text("\n".join(lines) + "\n")
+    command = (MPIRUN + ["-n", str(ranks)] if ranks > 1 else []) + [program(), "-options_file", "scene.txt", *extra]
+    return subprocess.run(command, cwd=folder, env=environment(), text=True, errors="replace", timeout=timeout,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def run(folder, options, ranks=1, timeout=600):
+    """Runs a scene that must succeed, with -output out in folder; returns its Results."""
+    options = {"output": "out", **options}
+    start = time.perf_counter()
+    done = call(folder, options, ranks, timeout)
+    wall = time.perf_counter() - start
+    if done.returncode != 0:
+        raise Failed(f"exit code {done.returncode} of {folder}/scene.txt\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}")
+    return Results(Path(folder), options["output"], wall, done.stdout)
+
+
+class Frame:
+    """One VTKHDF file: points, cells, and the data on both."""
+
+    def __init__(self, path):
+        with h5py.File(path, "r") as file:
+            group = file["VTKHDF"]
+            self.points = group["Points"][:]
+            self.connectivity = group["Connectivity"][:]
+            self.offsets = group["Offsets"][:]
+            self.point_data = {name: data[:] for name, data in group["PointData"].items()} if "PointData" in group else {}
+            self.cell_data = {name: data[:] for name, data in group["CellData"].items()} if "CellData" in group else {}
+
+    def nodes(self, cell):
+        """Numbers of the points of a cell."""
+        return self.connectivity[self.offsets[cell]:self.offsets[cell + 1]]
+
+    def centres(self):
+        """Mean of the corners of every cell."""
+        return np.array([self.points[self.nodes(c)].mean(axis=0) for c in range(len(self.offsets) - 1)])
+
+
+class Results:
+    """What a run left in its folder."""
+
+    def __init__(self, folder, output, wall, stdout):
+        self.folder, self.out, self.wall, self.stdout = folder, folder / output, wall, stdout
+
+    @property
+    def summary(self):
+        return json.loads((self.out / "summary.json").read_text())
+
+    def histories(self):
+        """Columns of histories.csv by name, step and time included."""
+        with open(self.out / "histories.csv", newline="") as file:
+            rows = list(csv.reader(file))
+        data = np.array(rows[1:], dtype=float)
+        return {name: data[:, i] for i, name in enumerate(rows[0])}
+
+    def monitor(self, name):
+        """Columns of a monitor's file by the names in its header line."""
+        lines = (self.folder / name).read_text().splitlines()
+        header = next(line for line in lines if line.startswith("#")).lstrip("# ").split()
+        data = np.array([line.split() for line in lines if line and not line.startswith("#")], dtype=float)
+        return {column: data[:, i] for i, column in enumerate(header)}
+
+    def frames(self, name="fields"):
+        """Times and Frames of a series, in order."""
+        series = json.loads((self.out / f"{name}.hdf.series").read_text())
+        return [(entry["time"], Frame(self.out / entry["name"])) for entry in series["files"]]
+
+    def last_frame(self, name="fields"):
+        series = json.loads((self.out / f"{name}.hdf.series").read_text())
+        return Frame(self.out / series["files"][-1]["name"])
