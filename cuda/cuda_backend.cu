@@ -52,7 +52,9 @@ class CudaBackend final : public Backend {
     cudaGetDeviceProperties(&properties, device);
     return properties.name;
   }
-  std::size_t Bytes() const override { return tables_.Bytes() + u_.bytes() + v_.bytes() + schedule_.bytes() + history_.bytes(); }
+  std::size_t Bytes() const override {
+    return tables_.Bytes() + u_.bytes() + v_.bytes() + schedule_.bytes() + history_.bytes();
+  }
 
   PetscErrorCode CreateVecs(Vec *u, Vec *v) override {
     PetscFunctionBeginUser;
@@ -93,8 +95,8 @@ class CudaBackend final : public Backend {
     PetscCall(VecCUDARestoreArray(vec_u_, &u));
     PetscCall(VecCUDARestoreArray(vec_v_, &v));
     if (t_.n_watch > 0)
-      CdemCuda(cudaMemcpy(batch.history, history_.get(), 6 * sizeof(double) * t_.n_watch * static_cast<std::size_t>(batch.n),
-                          cudaMemcpyDeviceToHost));
+      CdemCuda(cudaMemcpy(batch.history, history_.get(),
+                          6 * sizeof(double) * t_.n_watch * static_cast<std::size_t>(batch.n), cudaMemcpyDeviceToHost));
     if (state.failure != ~0ull)
       *failure = Failure{static_cast<int>(state.failure >> 32), static_cast<int>(state.failure & 0xffffffffu)};
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -160,7 +162,8 @@ class CudaBackend final : public Backend {
     PetscFunctionBeginUser;
     PetscCall(Reserve(batch.n));
     if (batch.schedule && schedule_.size() > 0)
-      CdemCuda(cudaMemcpy(schedule_.get(), batch.schedule, 3 * sizeof(double) * t_.n_tables * static_cast<std::size_t>(batch.n),
+      CdemCuda(cudaMemcpy(schedule_.get(), batch.schedule,
+                          3 * sizeof(double) * t_.n_tables * static_cast<std::size_t>(batch.n),
                           cudaMemcpyHostToDevice));
     const BatchState start{-1, ~0ull};
     CdemCuda(cudaMemcpy(batch_.get(), &start, sizeof start, cudaMemcpyHostToDevice));
@@ -204,8 +207,8 @@ class CudaBackend final : public Backend {
     for (const DeviceArray<double> *field : {&u_, &v_}) {
       if (field == &v_ && t_.beta == 0) break;
       double *ghosts = field->get() + 3 * static_cast<std::size_t>(t_.n_owned);
-      PetscCall(PetscSFBcastWithMemTypeBegin(t_.halo, unit_, PETSC_MEMTYPE_CUDA, field->get(), PETSC_MEMTYPE_CUDA, ghosts,
-                                             MPI_REPLACE));
+      PetscCall(PetscSFBcastWithMemTypeBegin(t_.halo, unit_, PETSC_MEMTYPE_CUDA, field->get(), PETSC_MEMTYPE_CUDA,
+                                             ghosts, MPI_REPLACE));
       PetscCall(PetscSFBcastEnd(t_.halo, unit_, field->get(), ghosts, MPI_REPLACE));
     }
     PetscCall(PetscLogEventEnd(events.halo, nullptr, nullptr, nullptr, nullptr));

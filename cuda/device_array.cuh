@@ -8,11 +8,11 @@
 #include <vector>
 
 /// Calls CUDA and turns a failure into a PETSc error with CUDA's own text.
-#define CdemCuda(call)                                                                                        \
-  do {                                                                                                        \
-    cudaError_t cdem_cuda_error_ = (call);                                                                    \
-    PetscCheck(cdem_cuda_error_ == cudaSuccess, PETSC_COMM_SELF, PETSC_ERR_GPU, "CUDA: %s (%s)",              \
-               cudaGetErrorString(cdem_cuda_error_), #call);                                                  \
+#define CdemCuda(call)                                                                           \
+  do {                                                                                           \
+    cudaError_t cdem_cuda_error_ = (call);                                                       \
+    PetscCheck(cdem_cuda_error_ == cudaSuccess, PETSC_COMM_SELF, PETSC_ERR_GPU, "CUDA: %s (%s)", \
+               cudaGetErrorString(cdem_cuda_error_), #call);                                     \
   } while (0)
 
 namespace cdem {

@@ -76,14 +76,17 @@ PetscErrorCode DeviceTables::BuildSlotLists() {
   each([&](int node, int) { ++count[node]; });
   std::vector<int> start(slices + 1, 0);
   for (int s = 0; s < slices; ++s) {
-    const int width = *std::max_element(&count[32 * static_cast<std::size_t>(s)], &count[32 * static_cast<std::size_t>(s)] + 32);
+    const int width =
+        *std::max_element(&count[32 * static_cast<std::size_t>(s)], &count[32 * static_cast<std::size_t>(s)] + 32);
     PetscCheck(start[s] < kNoSlot - 32 * width, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
                "too many corners on one rank for the GPU; use more ranks");
     start[s + 1] = start[s] + 32 * width;
   }
   std::vector<int> entry(start[slices], kNoSlot);
   std::fill(count.begin(), count.end(), 0);
-  each([&](int node, int slot) { entry[static_cast<std::size_t>(start[node / 32]) + 32 * count[node]++ + node % 32] = slot; });
+  each([&](int node, int slot) {
+    entry[static_cast<std::size_t>(start[node / 32]) + 32 * count[node]++ + node % 32] = slot;
+  });
   PetscCall(list_start_.Upload(start));
   PetscCall(list_entry_.Upload(entry));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -92,8 +95,8 @@ PetscErrorCode DeviceTables::BuildSlotLists() {
 std::size_t DeviceTables::Bytes() const {
   std::size_t bytes = 0;
   auto add = [&](const auto &...array) { ((bytes += array.bytes()), ...); };
-  add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_, load_start_,
-      load_table_, watch_, kind_, value_, load_, partial_, undamped_);
+  add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_,
+      load_start_, load_table_, watch_, kind_, value_, load_, partial_, undamped_);
   for (const Elements &e : elements_) add(e.node, e.material, e.counted);
   for (const Springs &s : springs_) add(s.a, s.b, s.joint, s.normal, s.area, s.kn, s.ks, s.slip, s.state, s.counted);
   return bytes;
@@ -121,14 +124,37 @@ NodeView DeviceTables::Nodes(double *u, double *v, const double *schedule, doubl
 }
 
 ElementView DeviceTables::View(const Elements &e, const double *u, const double *v, double beta) const {
-  return {e.host->n, e.host->n_pad, e.node.get(), e.material.get(), block_param_.get(), x_.get(), u, v, beta,
-          slots_.get() + 3 * e.host->corner_start, e.counted.get()};
+  return {e.host->n,
+          e.host->n_pad,
+          e.node.get(),
+          e.material.get(),
+          block_param_.get(),
+          x_.get(),
+          u,
+          v,
+          beta,
+          slots_.get() + 3 * e.host->corner_start,
+          e.counted.get()};
 }
 
 SpringView DeviceTables::View(const Springs &s, const double *u, const double *v, double beta) const {
-  return {s.host->n, s.host->n_pad, s.a.get(), s.b.get(), s.joint.get(), s.normal.get(), s.area.get(), s.kn.get(),
-          s.ks.get(), joint_param_.get(), u, v, beta, s.state.get(), s.slip.get(),
-          slots_.get() + 3 * s.host->force_start, s.counted.get()};
+  return {s.host->n,
+          s.host->n_pad,
+          s.a.get(),
+          s.b.get(),
+          s.joint.get(),
+          s.normal.get(),
+          s.area.get(),
+          s.kn.get(),
+          s.ks.get(),
+          joint_param_.get(),
+          u,
+          v,
+          beta,
+          s.state.get(),
+          s.slip.get(),
+          slots_.get() + 3 * s.host->force_start,
+          s.counted.get()};
 }
 
 void DeviceTables::LaunchStep(const NodeView &nodes, const StepArgs &args, BatchState *batch, int block,
@@ -233,12 +259,24 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
     if (t_->records.n > 0)
       NodeObserveKernel<true><<<node_blocks, kBlock, 0, stream>>>(nodes, args, Lists(), mass_.get(), f, partial_.get());
     else
-      NodeObserveKernel<false><<<node_blocks, kBlock, 0, stream>>>(nodes, args, Lists(), mass_.get(), f, partial_.get());
+      NodeObserveKernel<false>
+          <<<node_blocks, kBlock, 0, stream>>>(nodes, args, Lists(), mass_.get(), f, partial_.get());
     CdemCuda(cudaStreamSynchronize(stream));
     PetscCall(AddPartial(node_blocks, kNodeSums, node, 2));
   }
-  *observed = Observed{node[0], element[0], spring[0], node[1], {node[2], node[3], node[4]}, node[5], node[6],
-                       element[1] + spring[1], element[2] + spring[2], spring[3], spring[4], node[7], node[8]};
+  *observed = Observed{node[0],
+                       element[0],
+                       spring[0],
+                       node[1],
+                       {node[2], node[3], node[4]},
+                       node[5],
+                       node[6],
+                       element[1] + spring[1],
+                       element[2] + spring[2],
+                       spring[3],
+                       spring[4],
+                       node[7],
+                       node[8]};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -113,7 +113,8 @@ __global__ void __launch_bounds__(kBlock) ElementObserveKernel(ElementView t, do
 
 /// One spring: writes its force to its slot; commits state and slip with kCommit. Returns the state it would leave.
 template <class Law, bool kBeta, bool kCommit>
-__device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i, double (&normal)[3], double (&force)[3]) {
+__device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i, double (&normal)[3],
+                                                     double (&force)[3]) {
   Spring<double> s;
   double param[kMaxParams];
   const long long a = 3ll * t.a[i], b = 3ll * t.b[i];
@@ -214,8 +215,8 @@ __global__ inline void __launch_bounds__(kBlock) SumKernel(int n_owned, SlotList
 
 /// [in] f: undamped internal forces, or NULL when there is no damping: then the slots hold them.
 template <bool kRecords>
-__global__ void __launch_bounds__(kBlock)
-    NodeObserveKernel(NodeView n, StepArgs args, SlotLists lists, const double *mass, const double *f, double *partial) {
+__global__ void __launch_bounds__(kBlock) NodeObserveKernel(NodeView n, StepArgs args, SlotLists lists,
+                                                            const double *mass, const double *f, double *partial) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
   double value[kNodeSums] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
   if (i < n.n_owned) {

@@ -2,10 +2,12 @@
 #include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/options.hpp"
+#include "core/start.hpp"
 #include "simulation.hpp"
 
 static const char kHelp[] =
-    "cdem computes the dynamics and progressive failure of rock and soil by the continuum-based discrete element method.\n"
+    "cdem computes the dynamics and progressive failure of rock and soil by the continuum-based discrete element "
+    "method.\n"
     "  cdem -options_file scene.yaml [-option value ...]\n";
 
 static PetscErrorCode Run() {
@@ -31,6 +33,7 @@ static PetscErrorCode Help(bool *shown) {
 }
 
 int main(int argc, char **argv) {
+  if (cdem::PrepareGpuMpi()) return 1;
   if (PetscInitialize(&argc, &argv, nullptr, kHelp)) return 1;
   bool shown = false;
   PetscErrorCode ierr = cdem::InstallErrorHandler();

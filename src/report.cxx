@@ -40,18 +40,21 @@ PetscErrorCode Simulation::PrintHeader() {
   PetscCall(line("nodes", std::to_string(nodes_.n_global) + " in " + std::to_string(nodes_.n_blocks) +
                               (nodes_.n_blocks == 1 ? " block" : " blocks")));
   if (n_interface_faces_ > 0)
-    PetscCall(line("interfaces", std::to_string(n_interface_faces_) + " faces, " + std::to_string(n_springs_) + " springs"));
+    PetscCall(
+        line("interfaces", std::to_string(n_interface_faces_) + " faces, " + std::to_string(n_springs_) + " springs"));
   for (std::size_t i = 0; i < joints_.size(); ++i)
     if (joints_[i].kn < 0 || joints_[i].ks < 0) {
-      std::snprintf(text, sizeof text,
-                    "%s: stiffness %g times that of the blocks: where every face is one, the body is %.3g times as stiff",
-                    interface_names_[i].c_str(), joints_[i].stiffness_factor, 1 / (1 + 1 / joints_[i].stiffness_factor));
+      std::snprintf(
+          text, sizeof text,
+          "%s: stiffness %g times that of the blocks: where every face is one, the body is %.3g times as stiff",
+          interface_names_[i].c_str(), joints_[i].stiffness_factor, 1 / (1 + 1 / joints_[i].stiffness_factor));
       PetscCall(line("", text));
     }
   std::snprintf(text, sizeof text, "dt %.6g s", dt_);
   std::string step = text;
   if (bound_known_) {
-    std::snprintf(text, sizeof text, ", %.3g of the critical step %.6g s (a rigorous bound)", dt_ / bound_.dt, bound_.dt);
+    std::snprintf(text, sizeof text, ", %.3g of the critical step %.6g s (a rigorous bound)", dt_ / bound_.dt,
+                  bound_.dt);
     step += text;
   } else {
     step += ", the critical step was not computed";
@@ -61,8 +64,8 @@ PetscErrorCode Simulation::PrintHeader() {
   PetscCall(PetscMemoryGetCurrentUsage(&bytes));
   double total = bytes;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_DOUBLE, MPI_SUM, comm_));
-  std::snprintf(text, sizeof text, "%.3g GiB host, %.3g GiB state and tables of rank 0 on the device", total / (1 << 30),
-                static_cast<double>(backend_->Bytes()) / (1 << 30));
+  std::snprintf(text, sizeof text, "%.3g GiB host, %.3g GiB state and tables of rank 0 on the device",
+                total / (1 << 30), static_cast<double>(backend_->Bytes()) / (1 << 30));
   PetscCall(line("memory", text));
   for (const History &h : histories_) {
     std::snprintf(text, sizeof text, "%s of %s at the node (%g, %g, %g)", h.of.c_str(), h.name.c_str(), h.found[0],
@@ -74,7 +77,8 @@ PetscErrorCode Simulation::PrintHeader() {
   PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ts_monitor", &ts_monitor));
   PetscCall(TSCentralGetBatch(ts_, &batch, &batch_set));
   if (ts_monitor && !batch_set)
-    PetscCall(line("note", "-ts_monitor prints when a batch of steps ends; for every N steps give -ts_central_batch N"));
+    PetscCall(
+        line("note", "-ts_monitor prints when a batch of steps ends; for every N steps give -ts_central_batch N"));
   for (const std::string &remark : remarks_) PetscCall(line("note", remark));
   std::snprintf(text, sizeof text, "%.3g s", wall_setup_);
   PetscCall(line("set-up", text));
@@ -111,7 +115,10 @@ nlohmann::json Simulation::Summary() const {
   PetscLogDouble bytes = 0;
   (void)PetscMemoryGetCurrentUsage(&bytes);
   s["memory"] = {{"host", bytes}, {"device", device_ == "cuda" ? static_cast<double>(backend_->Bytes()) : 0.0}};
-  s["energy"] = {{"kinetic", last_.kinetic}, {"strain", last_.strain}, {"spring", last_.spring}, {"form", last_.form},
+  s["energy"] = {{"kinetic", last_.kinetic},
+                 {"strain", last_.strain},
+                 {"spring", last_.spring},
+                 {"form", last_.form},
                  {"error", nullptr}};
   return s;
 }
@@ -119,7 +126,8 @@ nlohmann::json Simulation::Summary() const {
 PetscErrorCode Simulation::Finish() {
   PetscFunctionBeginUser;
   const nlohmann::json summary = Summary();
-  PetscCall(PetscPrintf(comm_, "done        %lld steps to %.6g s; solve %.4g s, output %.3g s, %.4g M element-steps/s\n",
+  PetscCall(PetscPrintf(comm_,
+                        "done        %lld steps to %.6g s; solve %.4g s, output %.3g s, %.4g M element-steps/s\n",
                         static_cast<long long>(steps_), time_, wall_solve_, wall_output_,
                         summary["element_steps_per_second"].get<double>() / 1e6));
   if (!output_dir_.empty()) PetscCall(WriteSummary(comm_, output_dir_, summary));

@@ -103,9 +103,10 @@ PetscErrorCode Simulation::ChooseStep() {
   has_end_time_ = set;
   PetscCall(PetscOptionsGetInt(nullptr, nullptr, "-ts_max_steps", &end_step_, &set));
   has_end_step_ = set;
-  CdemCheck(has_end_time_ || has_end_step_, comm_, "how long to run? Give -ts_max_time in s, or -ts_max_steps, or both");
-  CdemCheck(!has_end_time_ || (end_time_ > 0 && std::isfinite(end_time_)), comm_, "-ts_max_time is %g; it must be above 0",
-            end_time_);
+  CdemCheck(has_end_time_ || has_end_step_, comm_,
+            "how long to run? Give -ts_max_time in s, or -ts_max_steps, or both");
+  CdemCheck(!has_end_time_ || (end_time_ > 0 && std::isfinite(end_time_)), comm_,
+            "-ts_max_time is %g; it must be above 0", end_time_);
   CdemCheck(!has_end_step_ || end_step_ >= 0, comm_, "-ts_max_steps is %lld; it must be at least 0",
             static_cast<long long>(end_step_));
   CdemCheck(!dt_given || (dt_ > 0 && std::isfinite(dt_)), comm_, "-ts_dt is %g; it must be above 0", dt_);
@@ -116,11 +117,12 @@ PetscErrorCode Simulation::ChooseStep() {
     CdemCheck(std::isfinite(dt_), comm_, "the critical step is not finite: give -ts_dt");
     if (has_end_time_) dt_ = end_time_ / std::ceil(end_time_ / dt_);
   } else if (bound_known_ && dt_ > bound_.dt) {
-    CdemCheck(check != "error", comm_,
-              "-ts_dt %g is above the critical step %g s. That number is a rigorous bound, at most about 1.6 times below the "
-              "exact limit: a larger step may still be stable. Use a smaller -ts_dt (or none), or go on with "
-              "-ts_central_check warn",
-              dt_, bound_.dt);
+    CdemCheck(
+        check != "error", comm_,
+        "-ts_dt %g is above the critical step %g s. That number is a rigorous bound, at most about 1.6 times below the "
+        "exact limit: a larger step may still be stable. Use a smaller -ts_dt (or none), or go on with "
+        "-ts_central_check warn",
+        dt_, bound_.dt);
     remarks_.push_back("-ts_dt is above the bound of the critical step, " + std::to_string(dt_ / bound_.dt) +
                        " times: the run may be unstable");
   }
@@ -134,16 +136,18 @@ PetscErrorCode Simulation::CreateBackend() {
   std::string way = "auto";
   bool deterministic = false;
   PetscInt per_block = 128;
-  PetscCall(options_.Word("central_way", &way));             // one way so far: the reference
+  PetscCall(options_.Word("central_way", &way));              // one way so far: the reference
   PetscCall(options_.Flag("deterministic", &deterministic));  // which is deterministic
   bool cuda = device_ == "cuda";
 #ifdef CDEM_HAVE_CUDA
   if (device_ == "auto") cuda = CudaDeviceThere();
-  CdemCheck(!cuda || CudaDeviceThere(), comm_, "-device cuda: this machine shows no usable NVIDIA GPU; use -device cpu");
+  CdemCheck(!cuda || CudaDeviceThere(), comm_,
+            "-device cuda: this machine shows no usable NVIDIA GPU; use -device cpu");
   if (cuda) {
     PetscCall(options_.Int("elements_per_block", &per_block));
     CdemCheck(per_block >= 32 && per_block <= 256 && per_block % 32 == 0, comm_,
-              "-elements_per_block is %lld; it must be a multiple of 32 from 32 to 256", static_cast<long long>(per_block));
+              "-elements_per_block is %lld; it must be a multiple of 32 from 32 to 256",
+              static_cast<long long>(per_block));
     PetscCall(CreateCudaBackend(tables_, static_cast<int>(mesh_.n_owned), static_cast<int>(per_block), &backend_));
   }
 #else
@@ -191,8 +195,8 @@ PetscErrorCode Simulation::CreateTS() {
   PetscCall(TSSetFromOptions(ts_));
   TSType type;
   PetscCall(TSGetType(ts_, &type));
-  CdemCheck(std::string(type) == "central", comm_, "-ts_type %s: cdem steps with central differences only; leave it out",
-            type);
+  CdemCheck(std::string(type) == "central", comm_,
+            "-ts_type %s: cdem steps with central differences only; leave it out", type);
   PetscCall(TSSetTimeStep(ts_, dt_));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -235,8 +239,7 @@ PetscErrorCode Simulation::Advance(const StepPlan &plan) {
   std::vector<double> schedule, history, times;
   if (tables_.records.n > 0) {
     schedule.resize(3 * time_tables_.size() * plan.n);
-    for (PetscInt j = 0; j < plan.n; ++j)
-      FillSchedule(plan.Time(j), plan.dt, &schedule[3 * time_tables_.size() * j]);
+    for (PetscInt j = 0; j < plan.n; ++j) FillSchedule(plan.Time(j), plan.dt, &schedule[3 * time_tables_.size() * j]);
     batch.schedule = schedule.data();
   }
   history.resize(6 * static_cast<std::size_t>(tables_.n_watch) * plan.n);

@@ -20,6 +20,17 @@ class Simulation final : public Stepper {
   /// Last rows of the histories, summary.json, timing lines.
   PetscErrorCode Finish();
 
+  // What tests and other programs may look at.
+  Vec u() const { return u_; }
+  Vec v() const { return v_; }  ///< at half steps
+  const Mesh &mesh() const { return mesh_; }
+  const Nodes &nodes() const { return nodes_; }
+  const Tables &tables() const { return tables_; }
+  const std::vector<Material> &materials() const { return materials_; }
+  const StepBound &bound() const { return bound_; }
+  double dt() const { return dt_; }
+  Backend &backend() { return *backend_; }
+
   PetscErrorCode Advance(const StepPlan &plan) override;
   PetscInt StepsToNext(PetscInt step, PetscReal time, PetscReal dt) override;
 

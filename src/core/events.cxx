@@ -11,9 +11,9 @@ PetscErrorCode RegisterEvents() {
   PetscClassId id;
   PetscCall(PetscClassIdRegister("cdem", &id));
   const std::pair<const char *, PetscLogEvent *> all[] = {
-      {"CdemMesh", &events.mesh},       {"CdemSplit", &events.split},     {"CdemTables", &events.tables},
-      {"CdemStepBound", &events.bound}, {"CdemHalo", &events.halo},       {"CdemElements", &events.elements},
-      {"CdemSprings", &events.springs}, {"CdemNodes", &events.nodes},     {"CdemBatch", &events.batch},
+      {"CdemMesh", &events.mesh},       {"CdemSplit", &events.split}, {"CdemTables", &events.tables},
+      {"CdemStepBound", &events.bound}, {"CdemHalo", &events.halo},   {"CdemElements", &events.elements},
+      {"CdemSprings", &events.springs}, {"CdemNodes", &events.nodes}, {"CdemBatch", &events.batch},
       {"CdemObserve", &events.observe}, {"CdemFrame", &events.frame}};
   for (const auto &[name, event] : all) PetscCall(PetscLogEventRegister(name, id, event));
   PetscCall(PetscLogStageRegister("Set-up", &events.setup));

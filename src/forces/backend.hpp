@@ -26,7 +26,7 @@ struct Observed {
   double residual_sum = 0, residual_count = 0;  ///< out-of-balance |component| over free components [N]
   double force_sum = 0, force_count = 0;        ///< |component| of corner and spring forces before summation [N]
   double broken = 0, springs = 0;
-  double v_max2 = 0, u_max2 = 0;                ///< largest |v|^2, |u|^2
+  double v_max2 = 0, u_max2 = 0;  ///< largest |v|^2, |u|^2
 };
 
 class Backend {

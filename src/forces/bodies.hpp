@@ -96,9 +96,9 @@ struct StepArgs {
 /// Node data as pointers, host or device.
 struct NodeView {
   int n_owned = 0;
-  double *u = nullptr, *v = nullptr;       ///< [n_local][3]
-  const double *inverse_mass = nullptr;    ///< [n_owned]
-  const int *record = nullptr;             ///< NULL without records
+  double *u = nullptr, *v = nullptr;     ///< [n_local][3]
+  const double *inverse_mass = nullptr;  ///< [n_owned]
+  const int *record = nullptr;           ///< NULL without records
   const std::uint8_t *kind = nullptr;
   const double *value = nullptr;
   const int *table = nullptr;
@@ -112,8 +112,8 @@ struct NodeView {
 
 /// Acceleration of a node [m/s^2] from its internal force, loads at t_n and gravity.
 template <bool kRecords>
-CDEM_HD void Acceleration(const NodeView &n, const StepArgs &s, int i, int row, const double *now, const double f_int[3],
-                          double a[3]) {
+CDEM_HD void Acceleration(const NodeView &n, const StepArgs &s, int i, int row, const double *now,
+                          const double f_int[3], double a[3]) {
   double f[3] = {-f_int[0], -f_int[1], -f_int[2]};
   if (kRecords && row >= 0)
     for (int l = n.load_start[row]; l < n.load_start[row + 1]; ++l)

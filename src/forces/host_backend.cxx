@@ -77,8 +77,8 @@ namespace {
 class HostBackend final : public Backend {
  public:
   HostBackend(const Tables &tables, int n_owned_cells)
-      : t_(tables), n_owned_cells_(n_owned_cells), u_(3 * static_cast<std::size_t>(tables.n_local), 0.0), v_(u_), f_(u_),
-        history_(StartHistories(tables)) {}
+      : t_(tables), n_owned_cells_(n_owned_cells), u_(3 * static_cast<std::size_t>(tables.n_local), 0.0), v_(u_),
+        f_(u_), history_(StartHistories(tables)) {}
 
   std::string Name() const override {
     const char *set = kLanes == 8 ? "AVX-512" : kLanes == 4 ? "AVX" : "SSE2";

@@ -142,7 +142,8 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
     for (int k = 0; k < 3; ++k) Store(out[k], force[k]);
     const int live = std::min(kLanes, t.n - i);
     for (int l = 0; l < live; ++l) {
-      double *to_a = f + 3 * static_cast<std::ptrdiff_t>(t.a[i + l]), *to_b = f + 3 * static_cast<std::ptrdiff_t>(t.b[i + l]);
+      double *to_a = f + 3 * static_cast<std::ptrdiff_t>(t.a[i + l]),
+             *to_b = f + 3 * static_cast<std::ptrdiff_t>(t.b[i + l]);
       for (int k = 0; k < 3; ++k) to_a[k] += out[k][l];
       for (int k = 0; k < 3; ++k) to_b[k] -= out[k][l];
       if (kCommit) continue;

@@ -21,8 +21,8 @@ struct ElementResults {
 
 /// Per-spring results of an observing pass.
 struct SpringResults {
-  std::vector<std::vector<double>> force;          ///< per table [3][n_pad] N, on b; empty when not wanted
-  std::vector<std::vector<std::uint8_t>> state;    ///< per table [n_pad], as a committing pass would leave it
+  std::vector<std::vector<double>> force;        ///< per table [3][n_pad] N, on b; empty when not wanted
+  std::vector<std::vector<std::uint8_t>> state;  ///< per table [n_pad], as a committing pass would leave it
   bool want_each = false;
   double energy = 0, force_sum = 0, force_count = 0;
   double broken = 0, count = 0;  ///< springs this rank counts

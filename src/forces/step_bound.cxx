@@ -33,7 +33,8 @@ void MakeCanonical(const Tables &tables, const ElementTable &t, int e, Canonical
   const double *x0 = &tables.x[3 * static_cast<std::size_t>(t.node[e])];
   for (int a = 0; a < t.corners; ++a)
     for (int k = 0; k < 3; ++k) {
-      c->x[a][k] = tables.x[3 * static_cast<std::size_t>(t.node[static_cast<std::size_t>(a) * t.n_pad + e]) + k] - x0[k];
+      c->x[a][k] =
+          tables.x[3 * static_cast<std::size_t>(t.node[static_cast<std::size_t>(a) * t.n_pad + e]) + k] - x0[k];
       size = std::max(size, std::fabs(c->x[a][k]));
     }
   const double grid = std::ldexp(1.0, std::ilogb(size) - 32);
@@ -126,7 +127,8 @@ double TableBound(const Tables &tables, const ElementTable &t, const std::vector
 /// lambda_max of a symmetric 3x3 matrix from above: ||A^256||_F^(1/256), at most 0.3 % too large.
 double LargestEigenvalue(const std::array<double, 6> &s) {
   const double trace = s[kXX] + s[kYY] + s[kZZ];
-  double a[3][3] = {{s[kXX], s[kXY], s[kXZ]}, {s[kXY], s[kYY], s[kYZ]}, {s[kXZ], s[kYZ], s[kZZ]}}, b[3][3], log_scale = 0;
+  double a[3][3] = {{s[kXX], s[kXY], s[kXZ]}, {s[kXY], s[kYY], s[kYZ]}, {s[kXZ], s[kYZ], s[kZZ]}}, b[3][3],
+         log_scale = 0;
   if (trace <= 0) return 0;
   double power = 1;
   for (int squaring = 0; squaring <= 8; ++squaring) {
@@ -176,7 +178,8 @@ PetscErrorCode ComputeStepBound(const Tables &tables, const std::vector<Material
   PetscCall(PetscLogEventBegin(events.bound, nullptr, nullptr, nullptr, nullptr));
   double w2[2] = {0, SpringBound(tables)};
   for (const ElementTable &t : tables.elements)
-    VisitElement(t.shape, [&](auto form) { w2[0] = std::max(w2[0], TableBound<decltype(form)>(tables, t, materials)); });
+    VisitElement(t.shape,
+                 [&](auto form) { w2[0] = std::max(w2[0], TableBound<decltype(form)>(tables, t, materials)); });
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, w2, 2, MPI_DOUBLE, MPI_MAX, tables.comm));
   bound->element_w2 = w2[0];
   bound->spring_w2 = w2[1];

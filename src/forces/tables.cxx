@@ -92,8 +92,9 @@ PetscErrorCode BuildMass(const Mesh &mesh, const Nodes &nodes, const std::vector
   tables->inverse_mass.resize(nodes.n_owned);
   for (PetscInt i = 0; i < nodes.n_owned; ++i) {
     const double *x = mesh.X(nodes.vertex[i]);
-    CdemCheck(tables->mass[i] > 0, PETSC_COMM_SELF, "the node at (%g, %g, %g) has mass %g kg: its elements are degenerate",
-              x[0], x[1], x[2], tables->mass[i]);
+    CdemCheck(tables->mass[i] > 0, PETSC_COMM_SELF,
+              "the node at (%g, %g, %g) has mass %g kg: its elements are degenerate", x[0], x[1], x[2],
+              tables->mass[i]);
     tables->inverse_mass[i] = 1.0 / tables->mass[i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -159,7 +160,8 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
     t.normal.resize(3 * static_cast<std::size_t>(t.n_pad));
     for (int i = 0; i < t.n_pad; ++i)
       for (int k = 0; k < 3; ++k)
-        t.normal[static_cast<std::size_t>(k) * t.n_pad + i] = normal[3 * static_cast<std::size_t>(std::min(i, t.n - 1)) + k];
+        t.normal[static_cast<std::size_t>(k) * t.n_pad + i] =
+            normal[3 * static_cast<std::size_t>(std::min(i, t.n - 1)) + k];
     JointLaws::Visit(law, [&](auto l) {
       if (!decltype(l)::kHistory) return;
       t.state.assign(t.n_pad, 0);
@@ -190,7 +192,8 @@ PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vect
   BuildSprings(mesh, nodes, face_interface, materials, joints, tables);
   CdemCheck(tables->n_slots < static_cast<std::size_t>(std::numeric_limits<int>::max()), PETSC_COMM_SELF,
             "a rank has %zu element corners and springs: more than it can count; use more ranks", tables->n_slots);
-  for (const Material &m : materials) tables->block_param.insert(tables->block_param.end(), m.param, m.param + kMaxParams);
+  for (const Material &m : materials)
+    tables->block_param.insert(tables->block_param.end(), m.param, m.param + kMaxParams);
   for (const Joint &j : joints) tables->joint_param.insert(tables->joint_param.end(), j.param, j.param + kMaxParams);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

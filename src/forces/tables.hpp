@@ -16,10 +16,11 @@ struct ElementTable {
   int law = 0;
   int corners = 0;
   int n = 0, n_pad = 0;
-  std::vector<int> node;       ///< [corner][n_pad] local node
-  std::vector<int> material;   ///< [n_pad] row of the parameter table
-  std::vector<int> cell;       ///< [n] local cell; below Mesh::n_owned: counted by this rank
-  std::size_t corner_start = 0;  ///< first slot of this table among the corner forces of all tables [slots of 3 doubles]
+  std::vector<int> node;      ///< [corner][n_pad] local node
+  std::vector<int> material;  ///< [n_pad] row of the parameter table
+  std::vector<int> cell;      ///< [n] local cell; below Mesh::n_owned: counted by this rank
+  std::size_t corner_start =
+      0;  ///< first slot of this table among the corner forces of all tables [slots of 3 doubles]
 };
 
 /// The springs of one interface law, in the order of (global cell, local face, corner): those with an owned node and
@@ -27,15 +28,15 @@ struct ElementTable {
 struct SpringTable {
   int law = 0;
   int n = 0, n_pad = 0;
-  std::vector<int> a, b;        ///< [n_pad] local nodes
-  std::vector<double> normal;   ///< [3][n_pad] from a's block to b's
-  std::vector<double> area;     ///< [n_pad] A_j [m^2]
-  std::vector<double> kn, ks;   ///< [n_pad] K_n = k_n A_j, K_s [N/m]
-  std::vector<int> joint;       ///< [n_pad] row of the parameter table
-  std::vector<int> face;        ///< [n] face of the mesh
+  std::vector<int> a, b;              ///< [n_pad] local nodes
+  std::vector<double> normal;         ///< [3][n_pad] from a's block to b's
+  std::vector<double> area;           ///< [n_pad] A_j [m^2]
+  std::vector<double> kn, ks;         ///< [n_pad] K_n = k_n A_j, K_s [N/m]
+  std::vector<int> joint;             ///< [n_pad] row of the parameter table
+  std::vector<int> face;              ///< [n] face of the mesh
   std::vector<std::uint8_t> counted;  ///< [n_pad] 1 where this rank reports the spring (it owns the face's first cell)
-  std::vector<std::uint8_t> state;  ///< [n_pad] SpringState bits at the start; empty without history
-  std::size_t force_start = 0;  ///< first slot of this table among the corner forces
+  std::vector<std::uint8_t> state;    ///< [n_pad] SpringState bits at the start; empty without history
+  std::size_t force_start = 0;        ///< first slot of this table among the corner forces
 };
 
 /// Kinds of a node's component.
@@ -44,34 +45,34 @@ enum Prescribed { kFree = 0, kVelocity = 1, kDisplacement = 2 };
 /// What only some nodes have: prescribed components, loads, a history. Rows exist for those nodes alone.
 struct NodeRecords {
   int n = 0;
-  std::vector<int> of_node;         ///< [n_owned] row or -1; empty when there are no rows
-  std::vector<std::uint8_t> kind;   ///< [n] Prescribed of x, y, z, two bits each
-  std::vector<double> value;        ///< [n][3] m or m/s, times the table
-  std::vector<int> table;           ///< [n][3] table of each component
-  std::vector<int> load_start;      ///< [n + 1]
-  std::vector<int> load_table;      ///< per load
-  std::vector<double> load;         ///< per load [3] N
-  std::vector<int> watch;           ///< [n] slot of the history buffer, or -1
+  std::vector<int> of_node;        ///< [n_owned] row or -1; empty when there are no rows
+  std::vector<std::uint8_t> kind;  ///< [n] Prescribed of x, y, z, two bits each
+  std::vector<double> value;       ///< [n][3] m or m/s, times the table
+  std::vector<int> table;          ///< [n][3] table of each component
+  std::vector<int> load_start;     ///< [n + 1]
+  std::vector<int> load_table;     ///< per load
+  std::vector<double> load;        ///< per load [3] N
+  std::vector<int> watch;          ///< [n] slot of the history buffer, or -1
 };
 
 /// Everything a backend needs, on the host.
 struct Tables {
   MPI_Comm comm = MPI_COMM_NULL;
-  int n_owned = 0, n_local = 0;       ///< nodes
-  PetscSF halo = nullptr;             ///< borrowed from Nodes
-  std::vector<double> x;              ///< [n_local][3] m
-  std::vector<double> mass;           ///< [n_owned] kg
-  std::vector<double> inverse_mass;   ///< [n_owned] 1/kg
+  int n_owned = 0, n_local = 0;      ///< nodes
+  PetscSF halo = nullptr;            ///< borrowed from Nodes
+  std::vector<double> x;             ///< [n_local][3] m
+  std::vector<double> mass;          ///< [n_owned] kg
+  std::vector<double> inverse_mass;  ///< [n_owned] 1/kg
   std::vector<ElementTable> elements;
   std::vector<SpringTable> springs;
-  std::vector<double> block_param;    ///< [region][kMaxParams]
-  std::vector<double> joint_param;    ///< [interface][kMaxParams]
+  std::vector<double> block_param;  ///< [region][kMaxParams]
+  std::vector<double> joint_param;  ///< [interface][kMaxParams]
   NodeRecords records;
-  int n_watch = 0;                    ///< slots of the history buffer on this rank
-  int n_tables = 1;                   ///< time tables; table 0 is the constant 1
-  double gravity[3] = {0, 0, 0};      ///< m/s^2
-  double alpha = 0, beta = 0;         ///< Rayleigh damping [1/s, s]
-  std::size_t n_slots = 0;            ///< corner and spring force slots of all tables
+  int n_watch = 0;                ///< slots of the history buffer on this rank
+  int n_tables = 1;               ///< time tables; table 0 is the constant 1
+  double gravity[3] = {0, 0, 0};  ///< m/s^2
+  double alpha = 0, beta = 0;     ///< Rayleigh damping [1/s, s]
+  std::size_t n_slots = 0;        ///< corner and spring force slots of all tables
 };
 
 /// Builds element and spring tables and nodal masses (collective).

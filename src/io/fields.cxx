@@ -9,8 +9,9 @@
 
 namespace cdem {
 
-static const std::vector<std::string> kFields = {"displacement", "velocity", "stress", "region", "opening", "slip",
-                                                 "normal_stress", "shear_stress", "state", "interface"};
+static const std::vector<std::string> kFields = {"displacement", "velocity", "stress",        "region",
+                                                 "opening",      "slip",     "normal_stress", "shear_stress",
+                                                 "state",        "interface"};
 
 PetscErrorCode FieldOutput::Create(MPI_Comm comm, Options &options) {
   PetscFunctionBeginUser;
@@ -137,9 +138,12 @@ PetscErrorCode FieldOutput::WriteInterfaces(PetscInt step, double time, const do
   }
   for (PetscInt node : face_nodes_)
     for (int k = 0; k < 3; ++k) displacement.push_back(u[3 * static_cast<std::size_t>(node) + k]);
-  std::vector<VtkField> fields = {{"displacement", true, 3, displacement.data()}, {"opening", false, 1, opening.data()},
-                                  {"slip", false, 1, slip.data()},               {"normal_stress", false, 1, normal.data()},
-                                  {"shear_stress", false, 1, shear.data()},      {"state", false, 1, state.data()},
+  std::vector<VtkField> fields = {{"displacement", true, 3, displacement.data()},
+                                  {"opening", false, 1, opening.data()},
+                                  {"slip", false, 1, slip.data()},
+                                  {"normal_stress", false, 1, normal.data()},
+                                  {"shear_stress", false, 1, shear.data()},
+                                  {"state", false, 1, state.data()},
                                   {"interface", false, 1, interface_.data()}};
   fields.erase(std::remove_if(fields.begin(), fields.end(), [&](const VtkField &f) { return !Wants(f.name.c_str()); }),
                fields.end());
@@ -150,8 +154,10 @@ PetscErrorCode FieldOutput::WriteInterfaces(PetscInt step, double time, const do
 PetscErrorCode FieldOutput::Write(PetscInt step, double time, const double *u, const std::vector<double> &v_now,
                                   const std::vector<double> &stress, const SpringResults &springs) {
   PetscFunctionBeginUser;
-  std::vector<VtkField> fields = {{"displacement", true, 3, u}, {"velocity", true, 3, v_now.data()},
-                                  {"stress", false, 6, stress.data()}, {"region", false, 1, region_.data()}};
+  std::vector<VtkField> fields = {{"displacement", true, 3, u},
+                                  {"velocity", true, 3, v_now.data()},
+                                  {"stress", false, 6, stress.data()},
+                                  {"region", false, 1, region_.data()}};
   fields.erase(std::remove_if(fields.begin(), fields.end(), [&](const VtkField &f) { return !Wants(f.name.c_str()); }),
                fields.end());
   PetscCall(blocks_.WriteFrame(step, time, fields));

@@ -28,10 +28,10 @@ class FieldOutput {
   const Mesh *mesh_ = nullptr;
   const Nodes *nodes_ = nullptr;
   const Tables *tables_ = nullptr;
-  std::vector<std::string> wanted_;      // empty: all
+  std::vector<std::string> wanted_;  // empty: all
   std::vector<double> region_, interface_;
-  std::vector<int> row_of_face_;         // row of the interface mesh, -1 otherwise
-  std::vector<PetscInt> face_nodes_;     // per point of the interface mesh: node on the side of cell[0]
+  std::vector<int> row_of_face_;      // row of the interface mesh, -1 otherwise
+  std::vector<PetscInt> face_nodes_;  // per point of the interface mesh: node on the side of cell[0]
   bool with_interfaces_ = false;
   VtkSeries blocks_, interfaces_;
 };

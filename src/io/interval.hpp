@@ -8,8 +8,8 @@
 namespace cdem {
 
 struct Interval {
-  PetscInt steps = 0;   ///< 0: not by steps
-  double seconds = 0;   ///< 0: not by time
+  PetscInt steps = 0;  ///< 0: not by steps
+  double seconds = 0;  ///< 0: not by time
 
   bool Never() const { return steps <= 0 && seconds <= 0; }
   /// Whether something is due at this step, which ended a step of dt at this time (step 0: always).

@@ -69,7 +69,8 @@ class HistoryRecorder {
   PetscErrorCode RecordLast(PetscInt step, double time, const double *u, const double *v_now);
 
  private:
-  PetscErrorCode Write(const std::vector<PetscInt> &steps, const std::vector<double> &times, std::vector<double> &values);
+  PetscErrorCode Write(const std::vector<PetscInt> &steps, const std::vector<double> &times,
+                       std::vector<double> &values);
   MPI_Comm comm_ = MPI_COMM_NULL;
   PetscMPIInt rank_ = 0;
   PetscInt interval_ = 1;

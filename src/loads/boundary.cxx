@@ -19,8 +19,8 @@ PetscErrorCode ParseComponents(MPI_Comm comm, const OptionKey &key, const std::s
   PetscFunctionBeginUser;
   std::fill_n(wanted, 3, false);
   for (char c : word) {
-    CdemCheck(c >= 'x' && c <= 'z' && !wanted[c - 'x'], comm, "%s is '%s'; it is made of the letters x, y, z, each once",
-              Options::Spelled(key).c_str(), word.c_str());
+    CdemCheck(c >= 'x' && c <= 'z' && !wanted[c - 'x'], comm,
+              "%s is '%s'; it is made of the letters x, y, z, each once", Options::Spelled(key).c_str(), word.c_str());
     wanted[c - 'x'] = true;
   }
   CdemCheck(!word.empty(), comm, "%s is empty; it is made of the letters x, y, z", Options::Spelled(key).c_str());
@@ -41,7 +41,8 @@ PetscErrorCode Place(const Mesh &mesh, Options &options, Boundary *b) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vector<std::string> &table_names, Boundary *b) {
+PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vector<std::string> &table_names,
+                            Boundary *b) {
   PetscFunctionBeginUser;
   auto key = [&](const char *k) { return OptionKey("boundary", b->name, k); };
   PetscCall(Place(mesh, options, b));
@@ -107,12 +108,12 @@ void Prescribe(const Boundary &b, Row &row) {
 }
 
 /// Adds the integral of N_j t dA of one face to its nodes; pressure pushes against the outward normal.
-void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Face &face, std::map<PetscInt, Row> &rows) {
+void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Face &face,
+              std::map<PetscInt, Row> &rows) {
   const ShapeInfo &info = Info(mesh.cell_shape[face.cell[0]]);
   const int size = info.face_size[face.local[0]];
   double x[4][3];
-  for (int j = 0; j < size; ++j)
-    std::copy_n(mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][j]]), 3, x[j]);
+  for (int j = 0; j < size; ++j) std::copy_n(mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][j]]), 3, x[j]);
   FacePoint points[4];
   const int n = FacePoints(size, x, points);
   const double tx = Dot(b.traction, b.traction);

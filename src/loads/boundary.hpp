@@ -10,24 +10,24 @@ class Options;
 /// One declared boundary.
 struct Boundary {
   std::string name;
-  int surface = -1, point_set = -1;       ///< index into the mesh's lists; one of the two
-  int kind[3] = {kFree, kFree, kFree};    ///< Prescribed of x, y, z
-  double value[3] = {0, 0, 0};            ///< m or m/s, times the table
-  bool loaded = false;                    ///< traction or pressure below
-  double traction[3] = {0, 0, 0};         ///< Pa
-  double pressure = 0, gradient_z = 0;    ///< Pa, Pa/m
+  int surface = -1, point_set = -1;     ///< index into the mesh's lists; one of the two
+  int kind[3] = {kFree, kFree, kFree};  ///< Prescribed of x, y, z
+  double value[3] = {0, 0, 0};          ///< m or m/s, times the table
+  bool loaded = false;                  ///< traction or pressure below
+  double traction[3] = {0, 0, 0};       ///< Pa
+  double pressure = 0, gradient_z = 0;  ///< Pa, Pa/m
   int table = 0;
 };
 
 /// A point at which a history is recorded.
 struct History {
   std::string name, of;
-  double at[3];         ///< asked for [m]
-  int component = 0;    ///< 0 to 2: displacement, 3 to 5: velocity
+  double at[3];           ///< asked for [m]
+  int component = 0;      ///< 0 to 2: displacement, 3 to 5: velocity
   PetscMPIInt rank = -1;  ///< that owns the node
-  int node = -1;        ///< on that rank
-  int slot = -1;        ///< of that rank's history buffer
-  double found[3];      ///< where the node stands [m]
+  int node = -1;          ///< on that rank
+  int slot = -1;          ///< of that rank's history buffer
+  double found[3];        ///< where the node stands [m]
 };
 
 /// Reads -boundaries and -boundary_<name>_*.

@@ -20,7 +20,8 @@ static PetscErrorCode Nearest(const Mesh &mesh, const Nodes &nodes, History *h) 
   }
   double least;
   PetscCallMPI(MPI_Allreduce(&best, &least, 1, MPI_DOUBLE, MPI_MIN, mesh.comm));
-  std::int64_t number = best == least && h->node >= 0 ? nodes.global[h->node] : std::numeric_limits<std::int64_t>::max();
+  std::int64_t number =
+      best == least && h->node >= 0 ? nodes.global[h->node] : std::numeric_limits<std::int64_t>::max();
   std::int64_t lowest;
   PetscCallMPI(MPI_Allreduce(&number, &lowest, 1, MPI_INT64_T, MPI_MIN, mesh.comm));
   PetscMPIInt owner = number == lowest && h->node >= 0 ? rank : -1;

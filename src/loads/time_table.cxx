@@ -13,14 +13,18 @@ namespace cdem {
 double TimeTable::At(double t) const {
   constexpr double pi = 3.14159265358979323846;
   switch (type) {
-    case kConstant: return amplitude;
-    case kRamp: return amplitude * (delay > 0 ? std::clamp(t / delay, 0.0, 1.0) : 1.0);
-    case kSine: return t < delay ? 0 : amplitude * std::sin(2 * pi * frequency * (t - delay));
+    case kConstant:
+      return amplitude;
+    case kRamp:
+      return amplitude * (delay > 0 ? std::clamp(t / delay, 0.0, 1.0) : 1.0);
+    case kSine:
+      return t < delay ? 0 : amplitude * std::sin(2 * pi * frequency * (t - delay));
     case kRicker: {
       const double a = pi * frequency * (t - delay);
       return amplitude * (1 - 2 * a * a) * std::exp(-a * a);
     }
-    case kFile: break;
+    case kFile:
+      break;
   }
   if (t <= time.front()) return amplitude * value.front();
   if (t >= time.back()) return amplitude * value.back();
@@ -30,7 +34,8 @@ double TimeTable::At(double t) const {
 }
 
 /// Reads lines "time value" or "time,value"; # begins a comment.
-static PetscErrorCode ReadTableFile(MPI_Comm comm, const std::string &spelled, const std::string &path, TimeTable *table) {
+static PetscErrorCode ReadTableFile(MPI_Comm comm, const std::string &spelled, const std::string &path,
+                                    TimeTable *table) {
   PetscFunctionBeginUser;
   std::ifstream in(path);
   CdemCheck(in, comm, "%s: the file %s cannot be read", spelled.c_str(), path.c_str());

@@ -31,7 +31,8 @@ int Points(Shape shape, Point *p) {
   }
   if (shape == Shape::kWedge) {
     for (int g = 0; g < 6; ++g) {
-      const double zeta = g < 3 ? -kGauss : kGauss, l1 = g % 3 == 1 ? 2.0 / 3 : 1.0 / 6, l2 = g % 3 == 2 ? 2.0 / 3 : 1.0 / 6;
+      const double zeta = g < 3 ? -kGauss : kGauss, l1 = g % 3 == 1 ? 2.0 / 3 : 1.0 / 6,
+                   l2 = g % 3 == 2 ? 2.0 / 3 : 1.0 / 6;
       const double l[3] = {1 - l1 - l2, l1, l2}, dl[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
       p[g].weight = 1.0 / 6;
       for (int a = 0; a < 6; ++a) {

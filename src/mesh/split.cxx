@@ -169,7 +169,8 @@ PetscErrorCode CreateNodes(const Mesh &mesh, const std::vector<int> &face_interf
     }
   PetscCall(FillOverlap(mesh, home));
   for (PetscInt c = 0; c < mesh.n_owned; ++c)
-    for (int i = 0; i < Info(mesh.cell_shape[c]).corners; ++i) home[kMaxCorners * c + i] = home[fans.Find(kMaxCorners * c + i)];
+    for (int i = 0; i < Info(mesh.cell_shape[c]).corners; ++i)
+      home[kMaxCorners * c + i] = home[fans.Find(kMaxCorners * c + i)];
   PetscCall(FillOverlap(mesh, home));
 
   // A corner is needed when its cell is owned or touches an owned node, when it faces an owned node across an interface,

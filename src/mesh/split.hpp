@@ -11,11 +11,11 @@ namespace cdem {
 /// corner, which does not depend on the partition.
 struct Nodes {
   PetscInt n_owned = 0, n_local = 0, n_global = 0;
-  std::vector<PetscInt> cell_node;     ///< [n_cells][8] local node of a corner, -1 where this rank does not need it
-  std::vector<PetscInt> vertex;        ///< [n_local] mesh vertex at which the node stands
-  std::vector<std::int64_t> global;    ///< [n_owned] number over all ranks, in (global cell, corner) order
-  PetscSF halo = nullptr;              ///< roots: owned nodes; leaves: ghosts, in order. NULL on one rank
-  PetscInt n_blocks = 0;               ///< connected parts of the whole mesh
+  std::vector<PetscInt> cell_node;   ///< [n_cells][8] local node of a corner, -1 where this rank does not need it
+  std::vector<PetscInt> vertex;      ///< [n_local] mesh vertex at which the node stands
+  std::vector<std::int64_t> global;  ///< [n_owned] number over all ranks, in (global cell, corner) order
+  PetscSF halo = nullptr;            ///< roots: owned nodes; leaves: ghosts, in order. NULL on one rank
+  PetscInt n_blocks = 0;             ///< connected parts of the whole mesh
 
   ~Nodes();
   const PetscInt *Corners(PetscInt cell) const { return &cell_node[kMaxCorners * cell]; }

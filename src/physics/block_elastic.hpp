@@ -9,8 +9,8 @@ struct Elastic {
   static constexpr bool kLinear = true;  ///< the forces are linear in u: beta damping acts on u + beta v for free
   enum { kLambda, kMu, kParams };        ///< Pa
 
-  static constexpr std::array<Property, 2> kProperties = {{{"young", "Pa", 0, kPropertyInf, kPropertyOpen},
-                                             {"poisson", "", -1, 0.5, kPropertyOpen}}};
+  static constexpr std::array<Property, 2> kProperties = {
+      {{"young", "Pa", 0, kPropertyInf, kPropertyOpen}, {"poisson", "", -1, 0.5, kPropertyOpen}}};
 
   /// Parameters of the point function from the properties above.
   static void Derive(const double *property, double *param) {

@@ -10,9 +10,15 @@ namespace cdem {
 template <class F>
 void VisitElement(Shape shape, F &&f) {
   switch (shape) {
-    case Shape::kTet: f(TetFull{}); break;
-    case Shape::kWedge: f(WedgeFull{}); break;
-    case Shape::kHex: f(HexFull{}); break;
+    case Shape::kTet:
+      f(TetFull{});
+      break;
+    case Shape::kWedge:
+      f(WedgeFull{});
+      break;
+    case Shape::kHex:
+      f(HexFull{});
+      break;
   }
 }
 

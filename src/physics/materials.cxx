@@ -66,9 +66,8 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
     material.lambda = elastic[Elastic::kLambda];
     material.mu = elastic[Elastic::kMu];
     PetscErrorCode ierr = PETSC_SUCCESS;
-    BlockLaws::Visit(material.law, [&](auto law) {
-      ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.param);
-    });
+    BlockLaws::Visit(material.law,
+                     [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.param); });
     PetscCall(ierr);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -91,9 +90,8 @@ PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &name
                 Options::Spelled({"interface", name, key}).c_str(), *value);
     }
     PetscErrorCode ierr = PETSC_SUCCESS;
-    JointLaws::Visit(joint.law, [&](auto law) {
-      ierr = ReadLaw<decltype(law)>(options, "interface", name, joint.param);
-    });
+    JointLaws::Visit(joint.law,
+                     [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "interface", name, joint.param); });
     PetscCall(ierr);
     if (joint.law == JointLaws::Find(JointBrittle::kName)) {
       std::string initial = "intact";
@@ -106,7 +104,8 @@ PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &name
       double &tension = joint.param[JointBrittle::kTension];
       if (tension * tan_phi > c) {
         tension = c / tan_phi;
-        remarks->push_back("interface " + name + ": tension cut to cohesion / tan(friction) = " + std::to_string(tension) + " Pa");
+        remarks->push_back("interface " + name +
+                           ": tension cut to cohesion / tan(friction) = " + std::to_string(tension) + " Pa");
       }
     }
   }

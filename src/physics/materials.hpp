@@ -12,8 +12,8 @@ class Options;
 
 /// A region's law and its numbers.
 struct Material {
-  int law = 0;             ///< number in BlockLaws
-  double density = 0;      ///< kg/m^3
+  int law = 0;                ///< number in BlockLaws
+  double density = 0;         ///< kg/m^3
   double lambda = 0, mu = 0;  ///< elastic part [Pa]
   double param[kMaxParams] = {};
 };
@@ -27,7 +27,8 @@ struct Joint {
 };
 
 /// Reads -block_<region>_*. Errors: a region without material, a value out of its range.
-PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions, std::vector<Material> *materials);
+PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions,
+                             std::vector<Material> *materials);
 
 /// Reads -interface_<name>_*; remarks receives what was changed (a tension above cohesion / tan(phi) is cut to it).
 PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &names, std::vector<Joint> *joints,

@@ -6,8 +6,8 @@ namespace cdem {
 
 /// A run of equal steps: step number first + j is at time base + (offset + j) dt.
 struct StepPlan {
-  PetscInt first = 0;          ///< ts->steps at its beginning
-  PetscReal base = 0;          ///< s
+  PetscInt first = 0;  ///< ts->steps at its beginning
+  PetscReal base = 0;  ///< s
   PetscInt offset = 0;
   PetscReal dt = 0, dt_old = 0;  ///< s; dt_old = 0 at the very beginning
   PetscInt n = 0;

@@ -1,0 +1,118 @@
+// CPU against GPU: the same scenes on both, to 1e-10 in normal builds and to the last bit without contraction.
+#include "../support/run_scene.hpp"
+
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+#ifdef CDEM_NO_CONTRACT
+constexpr bool kExact = true;
+#else
+constexpr bool kExact = false;
+#endif
+
+/// Figures for the docs: printed, so that a run of the tests states them.
+void RecordedFigures(double u, double v, double broken) {
+  std::printf("    u %.3e  v %.3e relative difference of GPU and CPU, %.2f %% of the springs broken\n", u, v,
+              100 * broken);
+}
+
+void Compare(const std::string &scene, double bar) {
+  const SceneResult cpu = RunScene(scene + " -device cpu"), gpu = RunScene(scene + " -device cuda");
+  const SceneResult again = RunScene(scene + " -device cuda");
+  ASSERT_FALSE(cpu.failed || gpu.failed || again.failed);
+  ASSERT_GT(cpu.observed.u_max2, 0);
+  EXPECT_TRUE(SameBits(gpu.u, again.u)) << "run = run on the GPU";
+  EXPECT_TRUE(SameBits(gpu.v, again.v));
+  const double u = RelativeDifference(gpu.u, cpu.u), v = RelativeDifference(gpu.v, cpu.v);
+  RecordedFigures(u, v, cpu.observed.broken / std::max(1.0, cpu.observed.springs));
+  if (kExact) {
+    EXPECT_TRUE(SameBits(gpu.u, cpu.u)) << "relative difference " << u;
+    EXPECT_TRUE(SameBits(gpu.v, cpu.v)) << "relative difference " << v;
+    for (std::size_t g = 0; g < cpu.history.size(); ++g) {
+      EXPECT_EQ(gpu.history[g].state, cpu.history[g].state);
+      EXPECT_TRUE(SameBits(gpu.history[g].slip, cpu.history[g].slip));
+    }
+  } else {
+    EXPECT_LT(u, bar);
+    EXPECT_LT(v, bar);
+  }
+  // sums of an observation: another order of adding, so to rounding
+  EXPECT_NEAR(gpu.observed.kinetic, cpu.observed.kinetic, 1e-9 * cpu.observed.kinetic);
+  EXPECT_NEAR(gpu.observed.strain, cpu.observed.strain, 1e-9 * cpu.observed.strain);
+  EXPECT_NEAR(gpu.observed.spring, cpu.observed.spring, 1e-9 * cpu.observed.spring + 1e-300);
+  EXPECT_NEAR(gpu.observed.force_sum, cpu.observed.force_sum, 1e-9 * cpu.observed.force_sum);
+  EXPECT_NEAR(gpu.observed.residual_sum, cpu.observed.residual_sum, 1e-8 * cpu.observed.residual_sum);
+}
+
+TEST(CpuGpu, Brick8000Steps) { Compare(std::string(kBrick) + " -ts_max_steps 8000", 1e-10); }
+
+TEST(CpuGpu, ShapesAndDamping) {
+  for (const char *shape : {"hex", "tet", "wedge"})
+    Compare(std::string("-mesh box -mesh_box_shape ") + shape +
+                " -mesh_box_cells 5,4,3 -mesh_box_size 5,4,3 "
+                "-mesh_box_jitter 0.2 -ts_max_steps 500 -boundaries zmin,zmax,xmax -boundary_zmin_fix xyz "
+                "-boundary_zmax_traction 1e5,0,2e5 -boundary_zmax_table r -boundary_xmax_displacement 0.001,0,0 "
+                "-boundary_xmax_components x -boundary_xmax_table r -tables r -table_r_type ramp -table_r_delay 0.01 "
+                "-damping_alpha 5 -damping_beta 1e-5" +
+                kRock,
+            1e-10);
+}
+
+TEST(CpuGpu, ElasticJoints) { Compare(BreakingScene("hex", "elastic") + " -ts_max_steps 500", 1e-10); }
+
+// Normal builds part after the first break, where exact ties amplify rounding: there the share of broken springs counts.
+TEST(CpuGpu, Breaking) {
+  for (const char *shape : {"hex", "tet", "wedge"}) {
+    const std::string scene = BreakingScene(shape) + " -ts_max_steps 2000";
+    if (kExact) {
+      Compare(scene, 0);
+      continue;
+    }
+    const SceneResult cpu = RunScene(scene + " -device cpu"), gpu = RunScene(scene + " -device cuda");
+    ASSERT_FALSE(cpu.failed || gpu.failed);
+    EXPECT_GT(cpu.observed.broken, 0) << "the scene must break";
+    EXPECT_NEAR(gpu.observed.broken / gpu.observed.springs, cpu.observed.broken / cpu.observed.springs, 0.05);
+  }
+}
+
+TEST(CpuGpu, JointedUpToTheFirstBreak) {
+  const std::string scene = BreakingScene("hex");
+  int steps = 1000;  // the longest run of this scene in which nothing breaks
+  while (steps > 1 && RunScene(scene + " -device cpu -ts_max_steps " + std::to_string(steps)).observed.broken > 0)
+    steps /= 2;
+  ASSERT_GT(steps, 10);
+  Compare(scene + " -ts_max_steps " + std::to_string(steps), 1e-10);
+}
+
+TEST(Gpu, BatchesDoNotMatter) {
+  const std::string scene = BreakingScene("hex") + " -ts_max_steps 700 -device cuda -ts_central_batch ";
+  const SceneResult one = RunScene(scene + "1"), many = RunScene(scene + "1000"), odd = RunScene(scene + "73");
+  EXPECT_TRUE(SameBits(one.u, many.u));
+  EXPECT_TRUE(SameBits(one.v, many.v));
+  EXPECT_TRUE(SameBits(one.u, odd.u));
+}
+
+TEST(Gpu, NonFiniteStops) {
+  std::unique_ptr<Simulation> s =
+      SetUpScene(std::string(kBrick) + " -ts_max_steps 3000 -device cuda -ts_dt 0.002 -ts_central_check warn");
+  ASSERT_NE(s, nullptr);
+  EXPECT_NE(static_cast<int>(s->Solve()), 0);
+}
+
+TEST(Gpu, VectorsAreCudaVectors) {
+  std::unique_ptr<Simulation> s = SetUpScene(std::string(kBrick) + " -ts_max_steps 10 -device cuda");
+  ASSERT_NE(s, nullptr);
+  PetscBool cuda;
+  ASSERT_PETSC(
+      PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(s->u()), &cuda, VECCUDA, VECSEQCUDA, VECMPICUDA, ""));
+  EXPECT_TRUE(cuda);
+  ASSERT_PETSC(s->Solve());
+  PetscReal norm;
+  ASSERT_PETSC(VecNorm(s->u(), NORM_2, &norm));
+  EXPECT_GT(norm, 0);
+}
+
+}  // namespace
+}  // namespace cdem

@@ -1,0 +1,1 @@
+#include "../unit/main.cxx"  // the same: inside PETSc

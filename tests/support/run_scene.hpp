@@ -1,0 +1,101 @@
+// Runs a scene given as an option string inside a test, and keeps what the test compares.
+#pragma once
+#include "core/error.hpp"
+#include "core/events.hpp"
+#include "simulation.hpp"
+
+#include <cstring>
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// Fails the test when a PETSc call fails.
+#define ASSERT_PETSC(call) ASSERT_EQ(static_cast<int>(call), 0)
+
+namespace cdem {
+
+/// State at the end of a run.
+struct SceneResult {
+  std::vector<double> u, v;  ///< owned nodes, [n][3]
+  std::vector<SpringHistory> history;
+  Observed observed;  ///< of this rank
+  bool failed = false;
+};
+
+/// Registers what main registers, once per process.
+inline PetscErrorCode RegisterOnce() {
+  PetscFunctionBeginUser;
+  static bool done = false;
+  if (!done) {
+    PetscCall(RegisterEvents());
+    PetscCall(RegisterTSCentral());
+    done = true;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// Sets the option database to these options alone and sets the scene up.
+inline std::unique_ptr<Simulation> SetUpScene(const std::string &options, MPI_Comm comm = PETSC_COMM_WORLD) {
+  EXPECT_EQ(static_cast<int>(RegisterOnce()), 0);
+  EXPECT_EQ(static_cast<int>(PetscOptionsClear(nullptr)), 0);
+  EXPECT_EQ(static_cast<int>(PetscOptionsInsertString(nullptr, options.c_str())), 0);
+  auto simulation = std::make_unique<Simulation>(comm);
+  if (simulation->SetUp()) return nullptr;
+  return simulation;
+}
+
+/// Runs a scene to its end.
+inline SceneResult RunScene(const std::string &options) {
+  SceneResult result;
+  std::unique_ptr<Simulation> s = SetUpScene(options);
+  if (!s || s->Solve() || s->Finish()) {
+    result.failed = true;
+    ADD_FAILURE() << "the scene did not run: " << options;
+    return result;
+  }
+  const double *u, *v;
+  const std::vector<SpringHistory> *history;
+  StepArgs next;
+  next.dt = s->dt();
+  std::vector<double> schedule(3 * static_cast<std::size_t>(s->tables().n_tables), 0.0);
+  EXPECT_EQ(static_cast<int>(s->backend().Observe(next, schedule.data(), &result.observed)), 0);
+  EXPECT_EQ(static_cast<int>(s->backend().Download(&u, &v, &history)), 0);
+  const std::size_t n = 3 * static_cast<std::size_t>(s->tables().n_owned);
+  result.u.assign(u, u + n);
+  result.v.assign(v, v + n);
+  result.history = *history;
+  return result;
+}
+
+/// True when both are equal to the last bit.
+inline bool SameBits(const std::vector<double> &a, const std::vector<double> &b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+/// max |a - b| / max |b|.
+inline double RelativeDifference(const std::vector<double> &a, const std::vector<double> &b) {
+  double most = 0, size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    most = std::max(most, std::fabs(a[i] - b[i]));
+    size = std::max(size, std::fabs(b[i]));
+  }
+  return size > 0 ? most / size : most;
+}
+
+// Scenes that several tests share.
+inline const char *const kRock = " -block_young 1e10 -block_poisson 0.25 -block_density 2500";
+inline const char *const kBrick =
+    "-mesh box -mesh_box_cells 10,10,10 -mesh_box_size 10,10,10 -block_young 1e10 -block_poisson 0.25 -block_density "
+    "2500 "
+    "-gravity 0,0,-9.81 -boundaries zmin -boundary_zmin_fix xyz";
+/// A fully jointed block that is struck and breaks: pulled and sheared at the top.
+inline std::string BreakingScene(const std::string &shape, const std::string &law = "brittle") {
+  return "-mesh box -mesh_box_shape " + shape + " -mesh_box_cells 6,5,4 -mesh_box_size 6,5,4 -mesh_box_jitter 0.15" +
+         kRock + " -interfaces j -interface_j_on all -interface_j_law " + law +
+         (law == "brittle" ? " -interface_j_tension 2e5 -interface_j_cohesion 4e5 -interface_j_friction 30" : "") +
+         " -gravity 0,0,-9.81 -boundaries zmin,zmax -boundary_zmin_fix xyz -boundary_zmax_velocity 0.4,0.1,0.3 "
+         "-boundary_zmax_table pulse -tables pulse -table_pulse_type sine -table_pulse_frequency 40 -damping_beta 2e-5";
+}
+
+}  // namespace cdem
