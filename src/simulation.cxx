@@ -61,7 +61,8 @@ PetscErrorCode Simulation::ReadScene() {
   PetscCall(options_.Reals("gravity", 3, tables_.gravity));
   PetscCall(options_.Real("damping_alpha", &tables_.alpha));
   PetscCall(options_.Real("damping_beta", &tables_.beta));
-  CdemCheck(tables_.alpha >= 0 && tables_.beta >= 0, comm_, "-damping_alpha and -damping_beta must be at least 0");
+  CdemCheck(tables_.alpha >= 0, comm_, "-damping_alpha is %g; it must be at least 0", tables_.alpha);
+  CdemCheck(tables_.beta >= 0, comm_, "-damping_beta is %g; it must be at least 0", tables_.beta);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -64,8 +64,13 @@ PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vecto
     PetscCall(options.Reals(key(motions[m].first), 3, value, &moved[m]));
     if (!moved[m]) continue;
     any = true;
-    for (int k = 0; k < 3; ++k)
-      if (only[k]) b->kind[k] = motions[m].second, b->value[k] = value[k];
+    for (int k = 0; k < 3; ++k) {
+      const bool fixed = b->kind[k] == kVelocity;
+      CdemCheck(!(fixed && components && only[k]), mesh.comm,
+                "boundary '%s' fixes component %c and prescribes its %s: give one", b->name.c_str(), 'x' + k,
+                motions[m].first);
+      if (only[k] && !fixed) b->kind[k] = motions[m].second, b->value[k] = value[k];
+    }
   }
   CdemCheck(!(moved[0] && moved[1]), mesh.comm, "boundary '%s' prescribes both velocity and displacement: give one",
             b->name.c_str());
@@ -134,6 +139,21 @@ void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Fac
   }
 }
 
+/// A load has one side to act on: it must lie on the outer boundary.
+PetscErrorCode CheckLoadedSurface(const Mesh &mesh, const Boundary &b) {
+  PetscFunctionBeginUser;
+  PetscInt inner = 0;
+  if (b.loaded)
+    for (PetscInt f : mesh.surface_faces[b.surface]) inner += mesh.faces[f].cell[1] >= 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &inner, 1, MPIU_INT, MPI_SUM, mesh.comm));
+  CdemCheck(
+      inner == 0, mesh.comm,
+      "boundary '%s' has a traction or pressure, but its surface lies inside the body: a load needs a surface on the "
+      "outer boundary",
+      b.name.c_str());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 }  // namespace
 
 PetscErrorCode ReadBoundaries(const Mesh &mesh, Options &options, const std::vector<std::string> &table_names,
@@ -165,6 +185,7 @@ PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vec
         if (member[nodes.vertex[i]]) Prescribe(b, rows[i]);
       continue;
     }
+    PetscCall(CheckLoadedSurface(mesh, b));
     for (PetscInt f : mesh.surface_faces[b.surface]) {
       const Face &face = mesh.faces[f];
       const int size = Info(mesh.cell_shape[face.cell[0]]).face_size[face.local[0]];

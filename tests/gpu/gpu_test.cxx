@@ -86,6 +86,13 @@ TEST(CpuGpu, JointedUpToTheFirstBreak) {
   Compare(scene + " -ts_max_steps " + std::to_string(steps), 1e-10);
 }
 
+// Run with mpirun -n 2 and -n 3 (ctest does): the ranks share the GPU, or have one each.
+TEST(GpuRanks, DoNotMatter) {
+  for (const char *shape : {"hex", "tet", "wedge"})
+    ExpectRanksDoNotMatter(BreakingScene(shape) + " -ts_max_steps 1000 -device cuda");
+  ExpectRanksDoNotMatter(std::string(kBrick) + " -ts_max_steps 1000 -device cuda");
+}
+
 TEST(Gpu, BatchesDoNotMatter) {
   const std::string scene = BreakingScene("hex") + " -ts_max_steps 700 -device cuda -ts_central_batch ";
   const SceneResult one = RunScene(scene + "1"), many = RunScene(scene + "1000"), odd = RunScene(scene + "73");

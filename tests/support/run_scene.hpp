@@ -45,10 +45,10 @@ inline std::unique_ptr<Simulation> SetUpScene(const std::string &options, MPI_Co
   return simulation;
 }
 
-/// Runs a scene to its end.
-inline SceneResult RunScene(const std::string &options) {
+/// Runs a scene to its end. With global, u and v are those of all ranks in the order of the global node numbers.
+inline SceneResult RunScene(const std::string &options, MPI_Comm comm = PETSC_COMM_WORLD, bool global = false) {
   SceneResult result;
-  std::unique_ptr<Simulation> s = SetUpScene(options);
+  std::unique_ptr<Simulation> s = SetUpScene(options, comm);
   if (!s || s->Solve() || s->Finish()) {
     result.failed = true;
     ADD_FAILURE() << "the scene did not run: " << options;
@@ -65,6 +65,15 @@ inline SceneResult RunScene(const std::string &options) {
   result.u.assign(u, u + n);
   result.v.assign(v, v + n);
   result.history = *history;
+  if (!global) return result;
+  for (std::vector<double> *field : {&result.u, &result.v}) {
+    // every entry is non-zero on one rank alone, so the sum is that entry to the last bit
+    std::vector<double> all(3 * static_cast<std::size_t>(s->nodes().n_global), 0.0);
+    for (std::size_t i = 0; i < field->size(); ++i) all[3 * s->nodes().global[i / 3] + i % 3] = (*field)[i];
+    EXPECT_EQ(MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm), 0);
+    *field = all;
+  }
+  EXPECT_EQ(static_cast<int>(SumOverRanks(comm, &result.observed)), 0);
   return result;
 }
 
@@ -96,6 +105,18 @@ inline std::string BreakingScene(const std::string &shape, const std::string &la
          (law == "brittle" ? " -interface_j_tension 2e5 -interface_j_cohesion 4e5 -interface_j_friction 30" : "") +
          " -gravity 0,0,-9.81 -boundaries zmin,zmax -boundary_zmin_fix xyz -boundary_zmax_velocity 0.4,0.1,0.3 "
          "-boundary_zmax_table pulse -tables pulse -table_pulse_type sine -table_pulse_frequency 40 -damping_beta 2e-5";
+}
+
+/// A run on all ranks against the same run on each rank by itself: the same to the last bit.
+inline void ExpectRanksDoNotMatter(const std::string &options) {
+  const SceneResult alone = RunScene(options, PETSC_COMM_SELF, true),
+                    together = RunScene(options, PETSC_COMM_WORLD, true);
+  ASSERT_FALSE(alone.failed || together.failed);
+  EXPECT_GT(alone.observed.u_max2, 0);
+  EXPECT_TRUE(SameBits(alone.u, together.u)) << RelativeDifference(together.u, alone.u);
+  EXPECT_TRUE(SameBits(alone.v, together.v)) << RelativeDifference(together.v, alone.v);
+  EXPECT_EQ(alone.observed.broken, together.observed.broken);
+  EXPECT_EQ(alone.observed.springs, together.observed.springs);
 }
 
 }  // namespace cdem

@@ -1,0 +1,23 @@
+// Ranks do not matter, to the last bit: run with mpirun -n 2 and -n 3 (ctest does).
+#include "../support/run_scene.hpp"
+
+namespace cdem {
+namespace {
+
+TEST(Ranks, DoNotMatterWhenBreaking) {
+  for (const char *shape : {"hex", "tet", "wedge"})
+    ExpectRanksDoNotMatter(BreakingScene(shape) + " -ts_max_steps 1000 -device cpu");
+}
+
+TEST(Ranks, DoNotMatterWhenJoined) { ExpectRanksDoNotMatter(std::string(kBrick) + " -ts_max_steps 500 -device cpu"); }
+
+TEST(Ranks, DoNotMatterWithOneCellEach) {
+  ExpectRanksDoNotMatter(
+      std::string("-mesh box -mesh_box_cells 3,1,1 -mesh_box_size 3,1,1 -gravity 0,0,-9.81 -ts_max_steps 100 "
+                  "-boundaries xmin -boundary_xmin_fix xyz -interfaces j -interface_j_on all "
+                  "-device cpu") +
+      kRock);
+}
+
+}  // namespace
+}  // namespace cdem
