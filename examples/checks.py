@@ -29,10 +29,11 @@ def ricker(t, frequency, delay):
     return (1 - 2 * a) * np.exp(-a)
 
 
-def report(rows):
+def report(rows, facts=()):
     """Prints rows (quantity, exact, computed, tolerance[, scale]) as a table and exits with 1 when one is outside.
 
-    The error is |computed - exact| / scale; scale is |exact| unless it is given."""
+    The error is |computed - exact| / scale; scale is |exact| unless it is given. facts: pairs (sentence, whether true),
+    which must hold too."""
     good = True
     print("| quantity | exact | computed | relative error | tolerance |")
     print("|---|---|---|---|---|")
@@ -42,6 +43,9 @@ def report(rows):
         good = good and inside
         mark = "" if inside else " **outside**"
         print(f"| {name} | {exact:.7g} | {computed:.7g} | {error:.1e}{mark} | {tolerance:.0e} |")
+    for sentence, true in facts:
+        good = good and bool(true)
+        print(sentence + ("" if true else ": **not so**"))
     print("passed" if good else "FAILED")
     sys.exit(0 if good else 1)
 

@@ -24,13 +24,11 @@ def main():
     worst = np.argmax(abs(v - exact))
     p = np.argmax(v)  # peak by a parabola through three points
     d = (v[p - 1] - v[p + 1]) / (2 * (v[p - 1] - 2 * v[p] + v[p + 1]))
-    share = s["broken_springs"] / s["springs"]
     checks.report([
         ("travel time of the peak (s)", RISE / c, t[p] + d * (t[1] - t[0]) - DELAY, 3e-2),
         ("peak velocity (m/s)", VELOCITY, v[p], 3e-2),
         ("worst moment of the pulse (m/s)", exact[worst], v[worst], 3e-2, VELOCITY),
-        ("share of broken springs, between 0 and 1", 0.5, share, 0.4999, 1.0),
-    ])
+    ], [("part of the fault is broken", 0 < s["broken_springs"] < s["springs"])])
 
 
 if __name__ == "__main__":
