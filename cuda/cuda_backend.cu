@@ -40,8 +40,8 @@ class CudaBackend final : public Backend {
     PetscCall(u_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
     PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
     PetscCall(batch_.Allocate(1));
-    // One rank: a stream of our own, which can be captured. Several: the default one, on which PetscSF works.
-    if (!t_.halo) CdemCuda(cudaStreamCreateWithFlags(&own_stream_, cudaStreamNonBlocking));
+    // A stream of our own, which can be captured.
+    CdemCuda(cudaStreamCreateWithFlags(&own_stream_, cudaStreamNonBlocking));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
@@ -204,6 +204,7 @@ class CudaBackend final : public Backend {
     PetscFunctionBeginUser;
     if (!t_.halo) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscLogEventBegin(events.halo, nullptr, nullptr, nullptr, nullptr));
+    CdemCuda(cudaStreamSynchronize(own_stream_));  // PetscSF works on a stream of PETSc's, which does not wait for ours
     for (const DeviceArray<double> *field : {&u_, &v_}) {
       if (field == &v_ && t_.beta == 0) break;
       double *ghosts = field->get() + 3 * static_cast<std::size_t>(t_.n_owned);
@@ -211,6 +212,7 @@ class CudaBackend final : public Backend {
                                              ghosts, MPI_REPLACE));
       PetscCall(PetscSFBcastEnd(t_.halo, unit_, field->get(), ghosts, MPI_REPLACE));
     }
+    CdemCuda(cudaDeviceSynchronize());  // nor does ours for it
     PetscCall(PetscLogEventEnd(events.halo, nullptr, nullptr, nullptr, nullptr));
     PetscFunctionReturn(PETSC_SUCCESS);
   }

@@ -29,7 +29,7 @@ PetscErrorCode Simulation::SetUp() {
   PetscCall(options_.CheckLeft());
   if (!output_dir_.empty()) {
     PetscCall(PrepareOutputDir(comm_, output_dir_, output_overwrite_));
-    PetscCall(recorder_.Open(output_dir_));
+    PetscCall(recorder_.Open(comm_, output_dir_, histories_));
     PetscCall(fields_.Open(output_dir_, mesh_, nodes_, tables_, face_interface_));
   }
   PetscCall(PetscLogStagePop());
@@ -72,11 +72,15 @@ PetscErrorCode Simulation::BuildModel() {
   PetscCall(CreateNodes(mesh_, face_interface_, &nodes_));
   PetscCall(PetscLogEventEnd(events.split, nullptr, nullptr, nullptr, nullptr));
   PetscCall(ReadHistories(mesh_, nodes_, options_, &histories_));
+  if (!histories_.empty()) PetscCall(recorder_.ReadOptions(options_));
+  if (output_dir_.empty() && !histories_.empty()) {
+    remarks_.push_back("histories are declared but there is no -output DIR: they are not recorded");
+    histories_.clear();
+  }
   PetscCall(PetscLogEventBegin(events.tables, nullptr, nullptr, nullptr, nullptr));
   PetscCall(BuildTables(mesh_, nodes_, face_interface_, materials_, joints_, &tables_));
   tables_.n_tables = static_cast<int>(time_tables_.size());
   PetscCall(BuildRecords(mesh_, nodes_, boundaries_, histories_, &tables_));
-  PetscCall(recorder_.Create(comm_, options_, output_dir_, histories_));
   PetscCall(PetscLogEventEnd(events.tables, nullptr, nullptr, nullptr, nullptr));
   std::int64_t counts[kShapes + 2] = {0, 0, 0, 0, 0};
   for (PetscInt c = 0; c < mesh_.n_owned; ++c) ++counts[static_cast<int>(mesh_.cell_shape[c])];

@@ -4,21 +4,19 @@
 
 namespace cdem {
 
-PetscErrorCode HistoryRecorder::Create(MPI_Comm comm, Options &options, const std::string &dir,
-                                       const std::vector<History> &histories) {
+PetscErrorCode HistoryRecorder::ReadOptions(Options &options) {
   PetscFunctionBeginUser;
-  comm_ = comm;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank_));
-  if (histories.empty()) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(options.Int("history_interval", &interval_));
-  CdemCheck(interval_ > 0, comm, "-history_interval is %lld; it must be at least 1", static_cast<long long>(interval_));
-  CdemCheck(!dir.empty(), comm, "-histories is given without -output: say with -output DIR where histories.csv goes");
-  histories_ = histories;
+  CdemCheck(interval_ > 0, options.comm(), "-history_interval is %lld; it must be at least 1",
+            static_cast<long long>(interval_));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HistoryRecorder::Open(const std::string &dir) {
+PetscErrorCode HistoryRecorder::Open(MPI_Comm comm, const std::string &dir, const std::vector<History> &histories) {
   PetscFunctionBeginUser;
+  comm_ = comm;
+  histories_ = histories;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank_));
   if (Empty()) PetscFunctionReturn(PETSC_SUCCESS);
   std::vector<std::string> names;
   for (const History &h : histories_) names.push_back(h.name);

@@ -59,9 +59,9 @@ class Monitors {
 /// Rows of histories.csv, gathered from the ranks that own the nodes.
 class HistoryRecorder {
  public:
-  PetscErrorCode Create(MPI_Comm comm, Options &options, const std::string &dir, const std::vector<History> &histories);
-  /// Begins histories.csv in a folder that exists.
-  PetscErrorCode Open(const std::string &dir);
+  PetscErrorCode ReadOptions(Options &options);
+  /// Begins histories.csv in a folder that exists; the histories know their slots by now.
+  PetscErrorCode Open(MPI_Comm comm, const std::string &dir, const std::vector<History> &histories);
   bool Empty() const { return histories_.empty(); }
   /// Rows of a batch that began with step first, at these times; buffer [n][n_watch][6] holds the slots of this rank.
   PetscErrorCode Record(PetscInt first, const std::vector<double> &times, const double *buffer, int n_watch);
