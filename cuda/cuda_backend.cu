@@ -3,7 +3,7 @@
 #include "core/events.hpp"
 #include "cuda/device_tables.cuh"
 
-#include <petscdevice.h>
+#include <petscdevice_cuda.h>
 
 #include <utility>
 
@@ -29,7 +29,7 @@ class CudaBackend final : public Backend {
   CudaBackend(const Tables &tables, int block) : t_(tables), block_(block) {}
   ~CudaBackend() override {
     DropGraphs();
-    if (own_stream_) cudaStreamDestroy(own_stream_);
+    if (stream_ && !t_.halo) cudaStreamDestroy(stream_);
     if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
   }
 
@@ -40,8 +40,11 @@ class CudaBackend final : public Backend {
     PetscCall(u_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
     PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
     PetscCall(batch_.Allocate(1));
-    // A stream of our own, which can be captured.
-    CdemCuda(cudaStreamCreateWithFlags(&own_stream_, cudaStreamNonBlocking));
+    // One rank: a stream of our own, which can be captured. Several: PETSc's, on which PetscSF packs and unpacks.
+    if (t_.halo)
+      stream_ = PetscDefaultCudaStream;
+    else
+      CdemCuda(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
@@ -81,17 +84,16 @@ class CudaBackend final : public Backend {
     if (t_.halo) {
       for (; done < batch.n; ++done) {
         PetscCall(Halo());
-        tables_.LaunchStep(nodes, done == 0 ? batch.first : batch.rest, batch_.get(), block_, own_stream_);
+        tables_.LaunchStep(nodes, done == 0 ? batch.first : batch.rest, batch_.get(), block_, stream_);
       }
     } else {
-      if (!(batch.first == batch.rest))
-        tables_.LaunchStep(nodes, batch.first, batch_.get(), block_, own_stream_), ++done;
+      if (!(batch.first == batch.rest)) tables_.LaunchStep(nodes, batch.first, batch_.get(), block_, stream_), ++done;
       PetscCall(Replay(nodes, batch.rest, batch.n - done));
     }
     CdemCuda(cudaGetLastError());
     BatchState state;
-    CdemCuda(cudaMemcpyAsync(&state, batch_.get(), sizeof state, cudaMemcpyDeviceToHost, own_stream_));
-    CdemCuda(cudaStreamSynchronize(own_stream_));
+    CdemCuda(cudaMemcpyAsync(&state, batch_.get(), sizeof state, cudaMemcpyDeviceToHost, stream_));
+    CdemCuda(cudaStreamSynchronize(stream_));
     PetscCall(VecCUDARestoreArray(vec_u_, &u));
     PetscCall(VecCUDARestoreArray(vec_v_, &v));
     if (t_.n_watch > 0)
@@ -112,7 +114,7 @@ class CudaBackend final : public Backend {
       CdemCuda(cudaMemcpy(schedule_.get(), schedule, 3 * sizeof(double) * t_.n_tables, cudaMemcpyHostToDevice));
     PetscCall(Halo());
     CdemCuda(cudaDeviceSynchronize());
-    PetscCall(tables_.Observe(View(), next, own_stream_, observed));
+    PetscCall(tables_.Observe(View(), next, stream_, observed));
     PetscCall(VecCUDARestoreArrayRead(vec_u_, &u));
     PetscCall(VecCUDARestoreArrayRead(vec_v_, &v));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -183,18 +185,18 @@ class CudaBackend final : public Backend {
     for (StepGraph &g : graphs_)
       for (; n >= g.steps; n -= g.steps) {
         if (!g.exec) PetscCall(Capture(nodes, args, &g));
-        CdemCuda(cudaGraphLaunch(g.exec, own_stream_));
+        CdemCuda(cudaGraphLaunch(g.exec, stream_));
       }
-    for (; n > 0; --n) tables_.LaunchStep(nodes, args, batch_.get(), block_, own_stream_);
+    for (; n > 0; --n) tables_.LaunchStep(nodes, args, batch_.get(), block_, stream_);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
   PetscErrorCode Capture(const NodeView &nodes, const StepArgs &args, StepGraph *g) {
     PetscFunctionBeginUser;
     cudaGraph_t graph;
-    CdemCuda(cudaStreamBeginCapture(own_stream_, cudaStreamCaptureModeThreadLocal));
-    for (int i = 0; i < g->steps; ++i) tables_.LaunchStep(nodes, args, batch_.get(), block_, own_stream_);
-    CdemCuda(cudaStreamEndCapture(own_stream_, &graph));
+    CdemCuda(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeThreadLocal));
+    for (int i = 0; i < g->steps; ++i) tables_.LaunchStep(nodes, args, batch_.get(), block_, stream_);
+    CdemCuda(cudaStreamEndCapture(stream_, &graph));
     CdemCuda(cudaGraphInstantiate(&g->exec, graph, 0));
     CdemCuda(cudaGraphDestroy(graph));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -204,7 +206,6 @@ class CudaBackend final : public Backend {
     PetscFunctionBeginUser;
     if (!t_.halo) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscLogEventBegin(events.halo, nullptr, nullptr, nullptr, nullptr));
-    CdemCuda(cudaStreamSynchronize(own_stream_));  // PetscSF works on a stream of PETSc's, which does not wait for ours
     for (const DeviceArray<double> *field : {&u_, &v_}) {
       if (field == &v_ && t_.beta == 0) break;
       double *ghosts = field->get() + 3 * static_cast<std::size_t>(t_.n_owned);
@@ -212,7 +213,6 @@ class CudaBackend final : public Backend {
                                              ghosts, MPI_REPLACE));
       PetscCall(PetscSFBcastEnd(t_.halo, unit_, field->get(), ghosts, MPI_REPLACE));
     }
-    CdemCuda(cudaDeviceSynchronize());  // nor does ours for it
     PetscCall(PetscLogEventEnd(events.halo, nullptr, nullptr, nullptr, nullptr));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -223,7 +223,7 @@ class CudaBackend final : public Backend {
   DeviceArray<double> u_, v_, schedule_, history_;
   DeviceArray<BatchState> batch_;
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
-  cudaStream_t own_stream_ = nullptr;
+  cudaStream_t stream_ = nullptr;
   StepGraph graphs_[2] = {{64, nullptr}, {8, nullptr}};
   StepArgs graph_args_;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;

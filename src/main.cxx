@@ -3,6 +3,7 @@
 #include "core/events.hpp"
 #include "core/options.hpp"
 #include "core/start.hpp"
+#include "physics/law_options.hpp"
 #include "simulation.hpp"
 
 static const char kHelp[] =
@@ -35,6 +36,7 @@ static PetscErrorCode Help(bool *shown) {
 int main(int argc, char **argv) {
   if (cdem::PrepareGpuMpi()) return 1;
   if (PetscInitialize(&argc, &argv, nullptr, kHelp)) return 1;
+  cdem::RegisterLawOptions();
   bool shown = false;
   PetscErrorCode ierr = cdem::InstallErrorHandler();
   if (!ierr) ierr = cdem::CheckArguments(argc, argv);

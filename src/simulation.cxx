@@ -140,7 +140,7 @@ PetscErrorCode Simulation::CreateBackend() {
   PetscFunctionBeginUser;
   std::string way = "auto";
   bool deterministic = false;
-  PetscInt per_block = 128;
+  PetscInt per_block = 64;
   PetscCall(options_.Word("central_way", &way));              // one way so far: the reference
   PetscCall(options_.Flag("deterministic", &deterministic));  // which is deterministic
   bool cuda = device_ == "cuda";

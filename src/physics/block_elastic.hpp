@@ -10,7 +10,8 @@ struct Elastic {
   enum { kLambda, kMu, kParams };        ///< Pa
 
   static constexpr std::array<Property, 2> kProperties = {
-      {{"young", "Pa", 0, kPropertyInf, kPropertyOpen}, {"poisson", "", -1, 0.5, kPropertyOpen}}};
+      {{"young", "Pa", 0, kPropertyInf, kPropertyOpen, "Young's modulus"},
+       {"poisson", "", -1, 0.5, kPropertyOpen, "Poisson's ratio"}}};
 
   /// Parameters of the point function from the properties above.
   static void Derive(const double *property, double *param) {

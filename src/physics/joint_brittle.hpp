@@ -16,9 +16,10 @@ struct JointBrittle {
   enum { kTension, kCohesion, kTanPhi, kKeepTension, kParams };  ///< Pa, Pa, -, 0 or 1
 
   /// Strengths of one interface; tension above cohesion / tan(phi) has been cut to it at set-up.
-  static constexpr std::array<Property, 3> kProperties = {{{"tension", "Pa", 0, kPropertyInf, kPropertyClosed},
-                                                           {"cohesion", "Pa", 0, kPropertyInf, kPropertyClosed},
-                                                           {"friction", "degrees", 0, 89.9, kPropertyClosed}}};
+  static constexpr std::array<Property, 3> kProperties = {
+      {{"tension", "Pa", 0, kPropertyInf, kPropertyClosed, "tensile strength"},
+       {"cohesion", "Pa", 0, kPropertyInf, kPropertyClosed, "cohesion"},
+       {"friction", "degrees", 0, 89.9, kPropertyClosed, "angle of friction"}}};
 
   static void Derive(const double *property, double *param) {
     const double degree = 3.14159265358979323846 / 180;

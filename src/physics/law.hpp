@@ -14,11 +14,12 @@ namespace cdem {
 inline constexpr double kPropertyInf = std::numeric_limits<double>::infinity();
 enum PropertyBounds { kPropertyOpen, kPropertyClosed };
 
-/// A number that a law wants from the user: option key, unit and the interval it must lie in.
+/// A number that a law wants from the user: option key, unit, the interval it must lie in, and what it is.
 struct Property {
   const char *key, *unit;
   double low, high;
   PropertyBounds bounds;
+  const char *text = "";  ///< for -help
 
   bool Allows(double value) const {
     return bounds == kPropertyOpen ? low < value && value < high : low <= value && value <= high;

@@ -19,8 +19,12 @@ void RecordedFigures(double u, double v, double broken) {
 }
 
 void Compare(const std::string &scene, double bar) {
-  const SceneResult cpu = RunScene(scene + " -device cpu"), gpu = RunScene(scene + " -device cuda");
-  const SceneResult again = RunScene(scene + " -device cuda");
+  // in the order of the global numbers: the partition may change from run to run
+  const SceneResult cpu = RunScene(scene + " -device cpu", PETSC_COMM_WORLD, true);
+  const SceneResult gpu = RunScene(scene + " -device cuda", PETSC_COMM_WORLD, true);
+  const SceneResult again = RunScene(scene + " -device cuda", PETSC_COMM_WORLD, true);
+  PetscMPIInt ranks;
+  ASSERT_EQ(MPI_Comm_size(PETSC_COMM_WORLD, &ranks), 0);
   ASSERT_FALSE(cpu.failed || gpu.failed || again.failed);
   ASSERT_GT(cpu.observed.u_max2, 0);
   EXPECT_TRUE(SameBits(gpu.u, again.u)) << "run = run on the GPU";
@@ -30,7 +34,7 @@ void Compare(const std::string &scene, double bar) {
   if (kExact) {
     EXPECT_TRUE(SameBits(gpu.u, cpu.u)) << "relative difference " << u;
     EXPECT_TRUE(SameBits(gpu.v, cpu.v)) << "relative difference " << v;
-    for (std::size_t g = 0; g < cpu.history.size(); ++g) {
+    for (std::size_t g = 0; ranks == 1 && g < cpu.history.size(); ++g) {
       EXPECT_EQ(gpu.history[g].state, cpu.history[g].state);
       EXPECT_TRUE(SameBits(gpu.history[g].slip, cpu.history[g].slip));
     }

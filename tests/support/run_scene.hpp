@@ -2,6 +2,7 @@
 #pragma once
 #include "core/error.hpp"
 #include "core/events.hpp"
+#include "physics/law_options.hpp"
 #include "simulation.hpp"
 
 #include <cstring>
@@ -30,6 +31,7 @@ inline PetscErrorCode RegisterOnce() {
   if (!done) {
     PetscCall(RegisterEvents());
     PetscCall(RegisterTSCentral());
+    RegisterLawOptions();
     done = true;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
