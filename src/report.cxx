@@ -115,6 +115,7 @@ nlohmann::json Simulation::Summary() const {
   PetscLogDouble bytes = 0;
   (void)PetscMemoryGetCurrentUsage(&bytes);
   s["memory"] = {{"host", bytes}, {"device", device_ == "cuda" ? static_cast<double>(backend_->Bytes()) : 0.0}};
+  s["validity"] = {{"slip_over_face", validity_.slip}, {"rotation_degrees", validity_.rotation}};
   s["energy"] = {{"kinetic", last_.kinetic},
                  {"strain", last_.strain},
                  {"spring", last_.spring},
@@ -125,6 +126,12 @@ nlohmann::json Simulation::Summary() const {
 
 PetscErrorCode Simulation::Finish() {
   PetscFunctionBeginUser;
+  if (output_dir_.empty()) {  // with output the last frame has looked
+    const double *u, *v;
+    const std::vector<SpringHistory> *history;
+    PetscCall(backend_->Download(&u, &v, &history));
+    PetscCall(WatchValidity(u));
+  }
   const nlohmann::json summary = Summary();
   PetscCall(PetscPrintf(comm_,
                         "done        %lld steps to %.6g s; solve %.4g s, output %.3g s, %.4g M element-steps/s\n",

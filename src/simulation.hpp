@@ -3,6 +3,7 @@
 #include "core/options.hpp"
 #include "forces/backend.hpp"
 #include "forces/step_bound.hpp"
+#include "forces/validity.hpp"
 #include "io/watch.hpp"
 #include "time/ts_central.hpp"
 
@@ -46,6 +47,7 @@ class Simulation final : public Stepper {
   static PetscErrorCode MonitorTS(TS ts, PetscInt step, PetscReal time, Vec u, void *ctx);
   PetscErrorCode Watch(PetscInt step, double time);
   PetscErrorCode WriteFrame(PetscInt step, double time);
+  PetscErrorCode WatchValidity(const double *u);
   PetscErrorCode ReportFailure(const StepPlan &plan, const Failure &failure);
   StepArgs MakeArgs(double dt_old, double dt) const;
   void FillSchedule(double t, double dt, double *row) const;
@@ -87,6 +89,8 @@ class Simulation final : public Stepper {
   PetscInt steps_ = 0;
   double time_ = 0;
   Observed last_;
+  Validity validity_;  // at the last frame or the end
+  bool warned_slip_ = false, warned_rotation_ = false;
 };
 
 }  // namespace cdem

@@ -3,6 +3,7 @@
 #include "simulation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cdem {
 
@@ -68,9 +69,30 @@ PetscErrorCode Simulation::WriteFrame(PetscInt step, double time) {
                           schedule.data(), &elements, &springs, &v_now, &last_));
   PetscCall(SumOverRanks(comm_, &last_));
   PetscCall(fields_.Write(step, time, u, v_now, stress, springs));
+  PetscCall(WatchValidity(u));
   const bool last = step >= end_step_ || (has_end_time_ && time >= end_time_);
   if (last && !recorder_.Empty()) PetscCall(recorder_.RecordLast(step, time, u, v_now.data()));
   PetscCall(PetscLogEventEnd(events.frame, nullptr, nullptr, nullptr, nullptr));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::WatchValidity(const double *u) {
+  PetscFunctionBeginUser;
+  PetscCall(CheckValidity(tables_, u, &validity_));
+  const Validity &v = validity_;
+  if (v.slip > kSlipLimit && !std::exchange(warned_slip_, true))
+    PetscCall(PetscPrintf(
+        comm_,
+        "warning     the spring at (%g, %g, %g) has shifted by %.3g of its face at step %lld: node pairs are "
+        "fixed, so results are good up to about %g\n",
+        v.slip_at[0], v.slip_at[1], v.slip_at[2], v.slip, static_cast<long long>(steps_), kSlipLimit));
+  if (v.rotation > kRotationLimit && !std::exchange(warned_rotation_, true))
+    PetscCall(PetscPrintf(
+        comm_,
+        "warning     the element at (%g, %g, %g) has turned by %.3g degrees at step %lld: strains are small "
+        "ones, so results are good up to about %g degree\n",
+        v.rotation_at[0], v.rotation_at[1], v.rotation_at[2], v.rotation, static_cast<long long>(steps_),
+        kRotationLimit));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

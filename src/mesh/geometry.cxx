@@ -74,6 +74,27 @@ double CornerVolumes(Shape shape, const double (*x)[3], double *volume) {
   return total;
 }
 
+void MeanGradient(Shape shape, const double (*x)[3], const double (*u)[3], double (*g)[3]) {
+  Point points[8];
+  const int n_points = Points(shape, points), corners = Info(shape).corners;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) g[i][j] = 0;
+  for (int p = 0; p < n_points; ++p) {
+    double jacobian[3][3] = {}, du[3][3] = {}, cofactor[3][3];  // rows: derivatives along xi, eta, zeta
+    for (int a = 0; a < corners; ++a)
+      for (int r = 0; r < 3; ++r)
+        for (int k = 0; k < 3; ++k) {
+          jacobian[r][k] += points[p].dn[a][r] * x[a][k];
+          du[r][k] += points[p].dn[a][r] * u[a][k];
+        }
+    for (int r = 0; r < 3; ++r) Cross(jacobian[(r + 1) % 3], jacobian[(r + 2) % 3], cofactor[r]);
+    const double scale = 1 / (n_points * Dot(jacobian[0], cofactor[0]));
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        for (int r = 0; r < 3; ++r) g[i][j] += du[r][i] * cofactor[r][j] * scale;
+  }
+}
+
 int FacePoints(int size, const double (*x)[3], FacePoint *points) {
   if (size == 3) {
     double e[2][3];
