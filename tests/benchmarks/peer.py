@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""The peer of the CPU table: the assembled stiffness of the same mesh, multiplied by the displacement in every step.
+
+peer.py FOLDER JSON REPEAT: FOLDER holds the frames of a finished run of cdem on a box whose lowest face is held, JSON
+gives young, poisson, density, gravity, dt, steps. Prints JSON: seconds of the loop for each form of the matrix, and the
+largest difference of the end state from cdem's, over the largest displacement. Needs numpy, scipy and h5py.
+
+It assembles from the frame's points and cells by its own code (8-node hexahedra, 2x2x2 Gauss points), folds dt^2, mass
+and support into the matrix, and so needs one product and two sums a step: the cheapest form of this way."""
+import ctypes
+import itertools
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+import scipy
+import scipy.sparse as sparse
+
+from measure import median_of
+
+# A plain loop over 3x3 blocks, which the compiler sees whole: scipy's goes through a general block product.
+BSR3 = r"""
+void steps(long n, long steps, const int *first, const int *column, const double *a, const double *load,
+           double *u, double *w) {
+  for (long s = 0; s < steps; ++s) {
+    for (long i = 0; i < n; ++i) {
+      double x = 0, y = 0, z = 0;
+      for (int k = first[i]; k < first[i + 1]; ++k) {
+        const double *b = a + 9L * k, *q = u + 3L * column[k];
+        x += b[0] * q[0] + b[1] * q[1] + b[2] * q[2];
+        y += b[3] * q[0] + b[4] * q[1] + b[5] * q[2];
+        z += b[6] * q[0] + b[7] * q[1] + b[8] * q[2];
+      }
+      w[3 * i] += load[3 * i] - x, w[3 * i + 1] += load[3 * i + 1] - y, w[3 * i + 2] += load[3 * i + 2] - z;
+    }
+    for (long i = 0; i < 3 * n; ++i) u[i] += w[i];
+  }
+}
+"""
+
+
+def element_matrices(x, young, poisson, density):
+    """24x24 stiffness and 8 corner masses of hexahedra with corners x (cells, 8, 3), in the order of VTK."""
+    la = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
+    mu = young / (2 * (1 + poisson))
+    sign = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
+    stiffness, mass = np.zeros((len(x), 8, 3, 8, 3)), np.zeros((len(x), 8))
+    for p in itertools.product((-1 / np.sqrt(3), 1 / np.sqrt(3)), repeat=3):
+        t = 1 + sign * np.array(p)
+        dn = np.stack([sign[:, a] * t[:, (a + 1) % 3] * t[:, (a + 2) % 3] / 8 for a in range(3)], 1)
+        jacobian = np.einsum("ai,cak->cik", dn, x)
+        volume = np.linalg.det(jacobian)
+        g = np.einsum("cki,ai->cak", np.linalg.inv(jacobian), dn)
+        pairs = np.einsum("cak,cbl->cakbl", g, g, optimize=True) * volume[:, None, None, None, None]
+        stiffness += la * pairs + mu * pairs.transpose(0, 1, 4, 3, 2)
+        dot = np.trace(pairs, axis1=2, axis2=4)
+        for k in range(3):
+            stiffness[:, :, k, :, k] += mu * dot
+        mass += density * volume[:, None] * (t.prod(1) / 8)
+    return stiffness.reshape(-1, 24, 24), mass
+
+
+def assemble(points, cells, scene):
+    """dt^2 M^-1 K with the rows of the held nodes empty, and dt^2 times the acceleration by weight."""
+    n = len(points)
+    mass, parts = np.zeros(n), []
+    for some in np.array_split(cells, max(1, len(cells) // 4000)):
+        k, m = element_matrices(points[some], scene["young"], scene["poisson"], scene["density"])
+        np.add.at(mass, some, m)
+        dof = (3 * some[:, :, None] + np.arange(3)).reshape(-1, 24)
+        rows, columns = np.repeat(dof, 24, axis=1), np.tile(dof, (1, 24))
+        parts.append(sparse.coo_matrix((k.ravel(), (rows.ravel(), columns.ravel())), shape=(3 * n, 3 * n)).tocsr())
+    while len(parts) > 1:  # sums of neighbours stay small
+        parts = [sum(parts[i + 1:i + 2], parts[i]) for i in range(0, len(parts), 2)]
+    free = np.repeat(points[:, 2] > points[:, 2].min(), 3)
+    scale = scene["dt"] ** 2 * free / np.repeat(mass, 3)
+    load = scene["dt"] ** 2 * np.where(free, np.tile(scene["gravity"], n), 0.0)
+    return (sparse.diags(scale) @ parts[0]).tocsr(), load
+
+
+def compiled(folder):
+    """The loop above by the system's C compiler, or None."""
+    source, library = Path(folder) / "peer.c", Path(folder) / "peer.so"
+    source.write_text(BSR3)
+    try:
+        subprocess.run(["cc", "-O3", "-march=native", "-ffast-math", "-shared", "-fPIC", "-o", library, source], check=True)
+        return ctypes.CDLL(str(library)).steps
+    except (OSError, subprocess.CalledProcessError):
+        return None
+
+
+def main():
+    folder, scene, repeat = Path(sys.argv[1]), json.loads(sys.argv[2]), int(sys.argv[3])
+    with h5py.File(max(folder.glob("fields_[0-9]*.hdf")), "r") as file:
+        points, cells = file["VTKHDF/Points"][:], file["VTKHDF/Connectivity"][:].reshape(-1, 8)
+        theirs = file["VTKHDF/PointData/displacement"][:].ravel()
+    start = time.perf_counter()
+    matrix, load = assemble(points, cells, scene)
+    assembly = time.perf_counter() - start
+    blocks = matrix.tobsr((3, 3))
+    scratch = tempfile.TemporaryDirectory()
+    loop = compiled(scratch.name)
+
+    def product(a):
+        u, w = np.zeros_like(load), 0.5 * load
+        u += w
+        for _ in range(scene["steps"] - 1):
+            w += load
+            w -= a @ u
+            u += w
+        return u
+
+    def native():
+        u, w = 0.5 * load, 0.5 * load
+        double = ctypes.POINTER(ctypes.c_double)
+        integer = ctypes.POINTER(ctypes.c_int)
+        first, column = (a.astype(np.int32) for a in (blocks.indptr, blocks.indices))
+        loop(ctypes.c_long(len(points)), ctypes.c_long(scene["steps"] - 1), first.ctypes.data_as(integer),
+             column.ctypes.data_as(integer), *(a.ctypes.data_as(double) for a in (blocks.data, load, u, w)))
+        return u
+
+    forms = {"CSR, scipy": lambda: product(matrix), "block CSR 3x3, scipy": lambda: product(blocks)}
+    if loop:
+        forms["block CSR 3x3, plain C loop (cc -O3 -march=native)"] = native
+    result = {"assembly": assembly, "scipy": scipy.__version__, "forms": {}}
+    for name, form in forms.items():
+        def run():
+            start, cpu = time.perf_counter(), time.process_time()
+            u = form()
+            solve, cpu = time.perf_counter() - start, time.process_time() - cpu
+            return {"solve": solve, "cpu": cpu, "share": min(1.0, cpu / solve),
+                    "difference": float(abs(u - theirs).max() / abs(theirs).max())}
+        result["forms"][name] = median_of(run, repeat, False, True)
+    print(json.dumps(result))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,142 @@
+"""The results of the benchmarks as text: a line of the terminal, and a page of Markdown."""
+import statistics
+
+BARS = {"solve": lambda v: f"at most {1e3 * v:g} ms", "ns": lambda v: f"at most {v:g} ns",
+        "rate": lambda v: f"at least {v / 1e9:g} G/s"}
+SHAPES = {"hex8": "hexahedra", "tet4": "tetrahedra", "wedge6": "wedges"}
+
+
+def seconds(value):
+    return f"{value:.4g} s" if value >= 1 else f"{1e3 * value:.4g} ms"
+
+
+def percent(value):
+    return f"{100 * value:.2g} %" if abs(value) < 0.1 else f"{100 * value:.0f} %"
+
+
+def verdict(case):
+    if "bar" not in case:
+        return " | "
+    kind, value = case["bar"]
+    return f"{BARS[kind](value)} | {'reached' if case['reached'] else '**missed**'}"
+
+
+def elements(summary):
+    return ", ".join(f"{n:,} {SHAPES.get(s, s)}" for s, n in summary["elements"].items())
+
+
+def line(case):
+    """One case on the terminal."""
+    name = f"{case['name']:18s}"
+    if "points" in case:
+        return (f"{name}{1e6 * case['a']:.2f} us a step and {1e6 * case['c']:.2f} us a batch: "
+                f"{100 * case['cost']:.4f} % with 1,000 steps a batch")
+    if "peak_gib" in case:
+        return f"{name}{case['seconds']:.2f} s, {case['peak_gib']:.2f} GiB, spread {percent(case['spread'])}"
+    if "forms" in case:
+        return "\n".join(f"{name}{f['ns']:.1f} ns, fastest {f['fastest_ns']:.1f} ns, spread {percent(f['spread'])}: {f['form']}"
+                         for f in case["forms"])
+    return (f"{name}{seconds(case['solve'])}, spread {percent(case['spread'])}, {case['ns']:.4g} ns, "
+            f"{case['rate'] / 1e9:.4g} G element-steps/s  {'' if case.get('reached', True) else 'MISSED'}")
+
+
+def head(device, about):
+    machine = about["cpu"] + f", {about['cores']} cores, {about['memory_gib']} GiB"
+    if about["gpu"]:
+        machine = f"{about['gpu']['name']} ({about['gpu']['memory']}, driver {about['gpu']['driver']}); {machine}"
+    return (f"# Benchmarks: {'one GPU' if device == 'cuda' else 'one CPU core'}\n"
+            f"<!-- Written by tests/benchmarks/run; do not edit. Every run is in {device}.json. -->\n\n"
+            f"- Date: {about['date']}\n"
+            f"- Version: cdem {about['version']} ({about['git']}), PETSc {about['petsc']}, device {about['device']}\n"
+            f"- Machine: {machine}; load at the start {about['load_at_start']:.2f}, at the end "
+            f"{about['load_at_end']:.2f}\n"
+            f"- Failed: {', '.join(c['name'] for c in about['failed']) or 'none'}; bars missed: "
+            f"{', '.join(c['name'] for c in about['missed']) or 'none'}\n\n")
+
+
+def scenes(cases, watch_share):
+    text = ("Solve: median of the time of all steps. Spread: (slowest - fastest) / median. Rate: element-steps a second"
+            + (". CPU share: CPU time over wall time of the worst run that counts" if watch_share else "") + ".\n\n")
+    text += "| scene | elements | springs | steps | solve | fastest | runs | spread |" + (" CPU share |" if watch_share else "")
+    text += " ns an element-step | rate, G/s | bar | |\n|" + "---|" * (13 if watch_share else 12) + "\n"
+    for c in cases:
+        s, n = c["summary"], sum(r["used"] for r in c["runs"])
+        text += (f"| {c['title']} | {elements(s)} | {s['springs']:,} | {s['steps']:,} | {seconds(c['solve'])} | {seconds(c['fastest'])} | {n} | "
+                 f"{percent(c['spread'])} | " + (f"{percent(c['share'])} | " if watch_share else "") +
+                 f"{c['ns']:.4g} | {c['rate'] / 1e9:.4g} | {verdict(c)} |\n")
+    return text + "\n"
+
+
+def command(case, about):
+    runs = [r for r in case["runs"] if r["used"]]
+    walls = [r["wall"] for r in runs]
+    return ("## From command to exit\n"
+            f"`cdem -options_file options/brick.yaml -output DIR`, start of the program and two frames included: "
+            f"**{statistics.median(walls):.2f} s** (median of {len(walls)}, from {min(walls):.2f} to {max(walls):.2f} s). "
+            f"A box of one element and one step takes {about['start_wall']:.2f} s: so much of it is MPI, PETSc and the device.\n\n")
+
+
+def ts(case):
+    micro = [1e6 * v for v in (case["a"], case["c"], *case["c_range"])]
+    text = ("## Cost of TS\n"
+            "The brick without histories, in batches (`-ts_central_batch`) of several lengths. A turn runs every length once;\n"
+            "fit of a turn: time a step = a + c / batch. What a batch costs holds all that is done once a batch: TS itself, the\n"
+            "event log, the check for unstable motion and, on a GPU, launches, copies and the wait for its end.\n\n"
+            "| steps a batch | time a step, us | fastest, us | spread |\n|---|---|---|---|\n")
+    for p in case["points"]:
+        text += f"| {p['batch']:,} | {1e6 * p['step']:.3f} | {1e6 * p['fastest']:.3f} | {percent(p['spread'])} |\n"
+    return text + (f"\nFastest of {sum(r['used'] for r in case['runs'])} turns: a = {micro[0]:.3f} us a step, "
+                   f"c = {micro[1]:.2f} us a batch (single turns from {micro[2]:.2f} to {micro[3]:.2f}; below 0: noise). "
+                   f"With batches of 1,000 TS costs **{100 * case['cost']:.4f} %** "
+                   f"(bar: under 1 %, {'reached' if case['reached'] else '**missed**'}). Batches of 1,000 against one of 8,000, "
+                   f"median measured directly: {100 * case['direct']:+.2f} % (single turns from {100 * case['direct_range'][0]:+.2f} to "
+                   f"{100 * case['direct_range'][1]:+.2f}: the noise of whole runs).\n\n")
+
+
+def setup(case):
+    n = elements(case["summary"])
+    return ("## Set-up\n"
+            f"A box of {n}, general shape, one process, bound of the critical step included: **{case['seconds']:.2f} s** "
+            f"(median of {sum(r['used'] for r in case['runs'])}, spread {percent(case['spread'])}) and "
+            f"**{case['peak_gib']:.2f} GiB** at most over the whole run "
+            f"(bars: 20 s and 8 GiB, {'reached' if case['reached'] else '**missed**'}).\n\n")
+
+
+def peers(cases):
+    text = ("## Peer\n"
+            "The same mesh with its stiffness assembled, one product of matrix and vector a step: the hardest peer for linear\n"
+            "elasticity (it gives no stress and cannot break). The peer assembles by its own code (`tests/benchmarks/peer.py`).\n"
+            "cdem runs again just before and just after it. Ratio: fastest to fastest. Difference: largest of the displacements\n"
+            "at the end from those of cdem, over the largest displacement.\n\n"
+            "| scene | program | ns an element-step | fastest | runs | spread | peer / cdem | difference |\n"
+            "|---|---|---|---|---|---|---|---|\n")
+    for c in cases:
+        ours = c["forms"][-1]
+        for f in c["forms"]:
+            text += (f"| {c['of']} | {f['form']} | {f['ns']:.4g} | {f['fastest_ns']:.4g} | {sum(r['used'] for r in f['runs'])} | "
+                     f"{percent(f['spread'])} | "
+                     + (" | " if f is ours else f"{f['fastest_ns'] / ours['fastest_ns']:.2f} | {f['difference']:.1e}") + " |\n")
+    return text + f"\nscipy {cases[0]['scipy']}.\n\n"
+
+
+def page(device, content):
+    """The page of a device."""
+    about, cases = content["about"], content["cases"]
+    good = [c for c in cases if "failed" not in c]
+    about = {**about, "failed": [c for c in cases if "failed" in c], "missed": [c for c in good if not c.get("reached", True)]}
+    by_name = {c["name"]: c for c in good}
+    rows = [c for c in good if "title" in c]
+    text = head(device, about)
+    if rows:
+        text += scenes(rows, device == "cpu")
+    if "brick" in by_name:
+        text += command(by_name["brick"], about)
+    if "ts" in by_name:
+        text += ts(by_name["ts"])
+    if "setup" in by_name:
+        text += setup(by_name["setup"])
+    if any("forms" in c for c in good):
+        text += peers([c for c in good if "forms" in c])
+    for c in about["failed"]:
+        text += f"Failed: {c['name']}\n\n```\n{c['failed']}\n```\n\n"
+    return text.rstrip("\n") + "\n"
