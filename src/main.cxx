@@ -34,12 +34,13 @@ static PetscErrorCode Help(bool *shown) {
 }
 
 int main(int argc, char **argv) {
-  if (cdem::PrepareGpuMpi()) return 1;
-  if (PetscInitialize(&argc, &argv, nullptr, kHelp)) return 1;
+  PetscErrorCode ierr = cdem::InstallErrorHandler();
+  if (!ierr) ierr = cdem::PrepareGpuMpi();
+  if (!ierr) ierr = PetscInitialize(&argc, &argv, nullptr, kHelp);
+  if (ierr) cdem::ExitOnError();
   cdem::RegisterLawOptions();
   bool shown = false;
-  PetscErrorCode ierr = cdem::InstallErrorHandler();
-  if (!ierr) ierr = cdem::CheckArguments(argc, argv);
+  ierr = cdem::CheckArguments(argc, argv);
   if (!ierr) ierr = cdem::RegisterEvents();
   if (!ierr) ierr = cdem::RegisterTSCentral();
   if (!ierr) ierr = Help(&shown);
