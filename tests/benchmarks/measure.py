@@ -56,7 +56,11 @@ class Machine:
         self.start_cpu = 0.0
         tiny = {"mesh": "box", "mesh_box_cells": "1,1,1", "mesh_box_size": "1,1,1", "block_young": 1e9,
                 "block_poisson": 0, "block_density": 1000, "ts_max_steps": 1}
-        runs = [self.run(tiny) for _ in range(3)]
+        try:
+            runs = [self.run(tiny) for _ in range(3)]
+        except BaseException:
+            self.close()
+            raise
         self.start_cpu = statistics.median(r["cpu"] for r in runs)  # of the start alone
         self.start_wall = statistics.median(r["wall"] for r in runs)
         summary = runs[-1]["summary"]
