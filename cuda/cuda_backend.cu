@@ -35,7 +35,9 @@ class CudaBackend final : public Backend {
 
   PetscErrorCode Create(int n_owned_cells) {
     PetscFunctionBeginUser;
-    PetscCall(PetscDeviceInitialize(PETSC_DEVICE_CUDA));  // PETSc chooses the device of this rank
+    PetscDeviceContext context;
+    PetscCall(PetscDeviceInitialize(PETSC_DEVICE_CUDA));       // PETSc chooses the device of this rank
+    PetscCall(PetscDeviceContextGetCurrentContext(&context));  // which settles PETSc's stream
     PetscCall(tables_.Create(t_, n_owned_cells));
     PetscCall(u_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
     PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));

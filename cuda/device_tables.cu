@@ -215,6 +215,7 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
     for (const Springs &s : springs_) most = std::max(most, Blocks(s.host->n, kBlock) * kSpringSums);
     PetscCall(partial_.Allocate(most));
     if (t_->beta != 0) PetscCall(undamped_.Allocate(3 * static_cast<std::size_t>(t_->n_owned)));
+    CdemCuda(cudaDeviceSynchronize());  // the zeroing runs on another stream than the kernels below
   }
   double element[kElementSums] = {}, spring[kSpringSums] = {}, node[kNodeSums] = {};
   const int node_blocks = Blocks(t_->n_owned, kBlock);

@@ -72,11 +72,9 @@ PetscErrorCode Simulation::PrintHeader() {
                   h.found[1], h.found[2]);
     PetscCall(line("history", text));
   }
-  PetscBool ts_monitor, batch_set;
-  PetscInt batch;
+  PetscBool ts_monitor;
   PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ts_monitor", &ts_monitor));
-  PetscCall(TSCentralGetBatch(ts_, &batch, &batch_set));
-  if (ts_monitor && !batch_set)
+  if (ts_monitor && !batch_given_)
     PetscCall(
         line("note", "-ts_monitor prints when a batch of steps ends; for every N steps give -ts_central_batch N"));
   for (const std::string &remark : remarks_) PetscCall(line("note", remark));
@@ -111,6 +109,8 @@ nlohmann::json Simulation::Summary() const {
   s["steps"] = steps_;
   s["time"] = time_;
   s["wall"] = {{"setup", wall_setup_}, {"solve", wall_solve_}, {"output", wall_output_}};
+  for (const auto &[phase, seconds] : wall_phases_) s["wall"]["setup_" + phase] = seconds;
+  for (const auto &[phase, seconds] : backend_->Phases()) s["wall"]["solve_" + phase] = seconds;
   s["element_steps_per_second"] = wall_solve_ > 0 ? n * static_cast<double>(steps_) / wall_solve_ : 0;
   PetscLogDouble bytes = 0;
   (void)PetscMemoryGetCurrentUsage(&bytes);
@@ -121,6 +121,10 @@ nlohmann::json Simulation::Summary() const {
                  {"spring", last_.spring},
                  {"form", last_.form},
                  {"error", nullptr}};
+  nlohmann::json stage;  // one so far
+  for (const char *key : {"steps", "time", "dt", "dt_critical", "broken_springs", "wall", "energy", "validity"})
+    stage[key] = s[key];
+  s["stages"] = nlohmann::json::array({stage});
   return s;
 }
 

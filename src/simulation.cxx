@@ -22,20 +22,31 @@ PetscErrorCode Simulation::SetUp() {
   PetscCall(PetscLogStagePush(events.setup));
   PetscCall(ReadScene());
   PetscCall(BuildModel());
+  Phase("step_bound");
   PetscCall(ChooseStep());
+  Phase("device");
   PetscCall(CreateBackend());
   PetscCall(CreateTS());
-  PetscCall(monitors_.Create(comm_, options_, last_step_));
+  Phase("files");
+  PetscCall(monitors_.ReadOptions(options_, last_step_));
   PetscCall(options_.CheckLeft());
   if (!output_dir_.empty()) {
     PetscCall(PrepareOutputDir(comm_, output_dir_, output_overwrite_));
     PetscCall(recorder_.Open(comm_, output_dir_, histories_));
     PetscCall(fields_.Open(output_dir_, mesh_, nodes_, tables_, face_interface_));
   }
+  PetscCall(monitors_.Open(comm_));
   PetscCall(PetscLogStagePop());
   wall_setup_ = MPI_Wtime() - wall_start_;
+  wall_phases_.back().second += MPI_Wtime();
   PetscCall(PrintHeader());
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void Simulation::Phase(const char *name) {
+  const double now = MPI_Wtime();
+  if (!wall_phases_.empty()) wall_phases_.back().second += now;
+  wall_phases_.emplace_back(name, -now);
 }
 
 PetscErrorCode Simulation::ReadScene() {
@@ -49,6 +60,7 @@ PetscErrorCode Simulation::ReadScene() {
     PetscCall(ReadInterval(options_, "output_", &frame_interval_));
     PetscCall(fields_.Create(comm_, options_));
   }
+  Phase("mesh");
   PetscCall(PetscLogEventBegin(events.mesh, nullptr, nullptr, nullptr, nullptr));
   PetscCall(CreateMesh(comm_, options_, &mesh_));
   PetscCall(PetscLogEventEnd(events.mesh, nullptr, nullptr, nullptr, nullptr));
@@ -68,6 +80,7 @@ PetscErrorCode Simulation::ReadScene() {
 
 PetscErrorCode Simulation::BuildModel() {
   PetscFunctionBeginUser;
+  Phase("split");
   PetscCall(PetscLogEventBegin(events.split, nullptr, nullptr, nullptr, nullptr));
   PetscCall(CreateNodes(mesh_, face_interface_, &nodes_));
   PetscCall(PetscLogEventEnd(events.split, nullptr, nullptr, nullptr, nullptr));
@@ -77,11 +90,13 @@ PetscErrorCode Simulation::BuildModel() {
     remarks_.push_back("histories are declared but there is no -output DIR: they are not recorded");
     histories_.clear();
   }
+  Phase("tables");
   PetscCall(PetscLogEventBegin(events.tables, nullptr, nullptr, nullptr, nullptr));
   PetscCall(BuildTables(mesh_, nodes_, face_interface_, materials_, joints_, &tables_));
   tables_.n_tables = static_cast<int>(time_tables_.size());
   PetscCall(BuildRecords(mesh_, nodes_, boundaries_, histories_, &tables_));
   PetscCall(PetscLogEventEnd(events.tables, nullptr, nullptr, nullptr, nullptr));
+  PetscCall(DMDestroy(&mesh_.dm));  // from here on the flat arrays serve
   std::int64_t counts[kShapes + 2] = {0, 0, 0, 0, 0};
   for (PetscInt c = 0; c < mesh_.n_owned; ++c) ++counts[static_cast<int>(mesh_.cell_shape[c])];
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
@@ -98,16 +113,16 @@ PetscErrorCode Simulation::BuildModel() {
 /// -ts_dt, -ts_max_time and -ts_max_steps belong to TS; they are looked at here because the default step depends on them.
 PetscErrorCode Simulation::ChooseStep() {
   PetscFunctionBeginUser;
-  PetscBool dt_given, set;
+  bool dt_given;
   std::string check = "error";
   PetscCall(options_.Word("ts_central_check", &check));
   PetscCall(options_.Real("ts_central_safety", &safety_));
   CdemCheck(safety_ > 0 && safety_ <= 1, comm_, "-ts_central_safety is %g; it must be above 0 and at most 1", safety_);
-  PetscCall(PetscOptionsGetReal(nullptr, nullptr, "-ts_dt", &dt_, &dt_given));
-  PetscCall(PetscOptionsGetReal(nullptr, nullptr, "-ts_max_time", &end_time_, &set));
-  has_end_time_ = set;
-  PetscCall(PetscOptionsGetInt(nullptr, nullptr, "-ts_max_steps", &end_step_, &set));
-  has_end_step_ = set;
+  PetscCall(options_.Real("ts_dt", &dt_, &dt_given));
+  PetscCall(options_.Real("ts_max_time", &end_time_, &has_end_time_));
+  PetscCall(options_.Int("ts_max_steps", &end_step_, &has_end_step_));
+  if (has_end_step_)  // TS reads it too, and knows no 1e3
+    PetscCall(PetscOptionsSetValue(nullptr, "-ts_max_steps", std::to_string(end_step_).c_str()));
   CdemCheck(has_end_time_ || has_end_step_, comm_,
             "how long to run? Give -ts_max_time in s, or -ts_max_steps, or both");
   CdemCheck(!has_end_time_ || (end_time_ > 0 && std::isfinite(end_time_)), comm_,
@@ -122,17 +137,19 @@ PetscErrorCode Simulation::ChooseStep() {
     CdemCheck(std::isfinite(dt_), comm_, "the critical step is not finite: give -ts_dt");
     if (has_end_time_) dt_ = end_time_ / std::ceil(end_time_ / dt_);
   } else if (bound_known_ && dt_ > bound_.dt) {
-    CdemCheck(
-        check != "error", comm_,
-        "-ts_dt %g is above the critical step %g s. That number is a rigorous bound, at most about 1.6 times below the "
-        "exact limit: a larger step may still be stable. Use a smaller -ts_dt (or none), or go on with "
-        "-ts_central_check warn",
-        dt_, bound_.dt);
+    CdemCheck(check != "error", comm_,
+              "-ts_dt %g is above the critical step %g s. That number is a rigorous bound, up to 1.6 times below the "
+              "exact limit "
+              "(more where tetrahedra are flat): a larger step may still be stable. Use a smaller -ts_dt (or none), or "
+              "go on with "
+              "-ts_central_check warn",
+              dt_, bound_.dt);
     remarks_.push_back("-ts_dt is above the bound of the critical step, " + std::to_string(dt_ / bound_.dt) +
                        " times: the run may be unstable");
   }
-  if (has_end_time_) last_step_ = static_cast<PetscInt>(std::ceil(end_time_ / dt_ - 1e-6));
-  last_step_ = std::min(last_step_, end_step_);
+  last_step_ = end_step_;
+  if (has_end_time_ && end_time_ / dt_ < static_cast<double>(end_step_))
+    last_step_ = static_cast<PetscInt>(std::ceil(end_time_ / dt_ - 1e-6));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -192,12 +209,15 @@ PetscErrorCode Simulation::SetInitialVelocity() {
 
 PetscErrorCode Simulation::CreateTS() {
   PetscFunctionBeginUser;
-  PetscCall(CreateTSCentral(comm_, this, u_, v_, &ts_));
+  PetscCall(options_.Int("ts_central_batch", &batch_, &batch_given_));
+  CdemCheck(!batch_given_ || batch_ >= 1, comm_, "-ts_central_batch is %lld; it must be at least 1",
+            static_cast<long long>(batch_));
+  PetscCall(CreateTSCentral(comm_, this, batch_, u_, v_, &ts_));
   PetscCall(TSSetMaxTime(ts_, has_end_time_ ? end_time_ : PETSC_MAX_REAL));
   PetscCall(TSSetMaxSteps(ts_, end_step_));
   PetscCall(TSSetTimeStep(ts_, dt_));
-  PetscCall(TSMonitorSet(ts_, MonitorTS, this, nullptr));
   PetscCall(TSSetFromOptions(ts_));
+  PetscCall(TSMonitorSet(ts_, MonitorTS, this, nullptr));  // not one that -ts_monitor_cancel would remove
   TSType type;
   PetscCall(TSGetType(ts_, &type));
   CdemCheck(std::string(type) == "central", comm_,
@@ -252,11 +272,20 @@ PetscErrorCode Simulation::Advance(const StepPlan &plan) {
   Failure failure;
   PetscCall(backend_->Advance(batch, &failure));
   PetscCall(PetscLogEventEnd(events.batch, nullptr, nullptr, nullptr, nullptr));
+  int good = batch.n;  // steps of the batch that are worth recording
+  PetscCall(FirstFailure(failure, &good));
   if (!recorder_.Empty()) {
-    for (PetscInt j = 0; j < plan.n; ++j) times.push_back(plan.Time(j));
+    for (PetscInt j = 0; j < std::min(good + 1, batch.n); ++j) times.push_back(plan.Time(j));
     PetscCall(recorder_.Record(plan.first, times, history.data(), tables_.n_watch));
   }
-  PetscCall(ReportFailure(plan, failure));
+  if (good < batch.n) PetscCall(ReportFailure(plan, failure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::FirstFailure(const Failure &failure, int *step) {
+  PetscFunctionBeginUser;
+  if (failure.step >= 0) *step = failure.step;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, step, 1, MPI_INT, MPI_MIN, comm_));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -267,7 +296,6 @@ PetscErrorCode Simulation::ReportFailure(const StepPlan &plan, const Failure &fa
   } mine = {failure.step < 0 ? std::numeric_limits<int>::max() : failure.step, 0}, first;
   PetscCallMPI(MPI_Comm_rank(comm_, &mine.rank));
   PetscCallMPI(MPI_Allreduce(&mine, &first, 1, MPI_2INT, MPI_MINLOC, comm_));
-  if (first.step == std::numeric_limits<int>::max()) PetscFunctionReturn(PETSC_SUCCESS);
   double x[3] = {0, 0, 0};
   if (first.rank == mine.rank) std::copy_n(&tables_.x[3 * static_cast<std::size_t>(failure.node)], 3, x);
   PetscCallMPI(MPI_Bcast(x, 3, MPI_DOUBLE, first.rank, comm_));

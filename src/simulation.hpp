@@ -36,6 +36,8 @@ class Simulation final : public Stepper {
   PetscInt StepsToNext(PetscInt step, PetscReal time, PetscReal dt) override;
 
  private:
+  /// Begins a phase of the set-up for wall_phases_; the one before ends.
+  void Phase(const char *name);
   PetscErrorCode ReadScene();
   PetscErrorCode BuildModel();
   PetscErrorCode ChooseStep();
@@ -46,8 +48,10 @@ class Simulation final : public Stepper {
   nlohmann::json Summary() const;
   static PetscErrorCode MonitorTS(TS ts, PetscInt step, PetscReal time, Vec u, void *ctx);
   PetscErrorCode Watch(PetscInt step, double time);
+  bool AtEnd() const;  ///< TS has a reason to stop
   PetscErrorCode WriteFrame(PetscInt step, double time);
   PetscErrorCode WatchValidity(const double *u);
+  PetscErrorCode FirstFailure(const Failure &failure, int *step);
   PetscErrorCode ReportFailure(const StepPlan &plan, const Failure &failure);
   StepArgs MakeArgs(double dt_old, double dt) const;
   void FillSchedule(double t, double dt, double *row) const;
@@ -78,12 +82,15 @@ class Simulation final : public Stepper {
   // watching
   std::string output_dir_, device_ = "auto";
   bool output_overwrite_ = false;
+  PetscInt batch_ = 0;
+  bool batch_given_ = false;
   Interval frame_interval_;
   Monitors monitors_;
   HistoryRecorder recorder_;
   FieldOutput fields_;
 
   // figures of the run
+  std::vector<std::pair<std::string, double>> wall_phases_;  // of the set-up
   double wall_setup_ = 0, wall_solve_ = 0, wall_output_ = 0, wall_start_ = 0;
   std::int64_t n_cells_[kShapes] = {0, 0, 0}, n_interface_faces_ = 0, n_springs_ = 0;
   PetscInt steps_ = 0;

@@ -17,11 +17,17 @@ PetscErrorCode Simulation::MonitorTS(TS, PetscInt step, PetscReal time, Vec, voi
   return static_cast<Simulation *>(ctx)->Watch(step, time);
 }
 
+bool Simulation::AtEnd() const {
+  TSConvergedReason reason = TS_CONVERGED_ITERATING;
+  (void)TSGetConvergedReason(ts_, &reason);
+  return reason != TS_CONVERGED_ITERATING;
+}
+
 PetscErrorCode Simulation::Watch(PetscInt step, double time) {
   PetscFunctionBeginUser;
   double dt;
   PetscCall(TSCentralGetLastStep(ts_, &dt));
-  const bool last = step >= end_step_ || (has_end_time_ && time >= end_time_);
+  const bool last = AtEnd();
   steps_ = step;
   time_ = time;
   const double reached = dt > 0 ? dt : dt_;
@@ -70,8 +76,7 @@ PetscErrorCode Simulation::WriteFrame(PetscInt step, double time) {
   PetscCall(SumOverRanks(comm_, &last_));
   PetscCall(fields_.Write(step, time, u, v_now, stress, springs));
   PetscCall(WatchValidity(u));
-  const bool last = step >= end_step_ || (has_end_time_ && time >= end_time_);
-  if (last && !recorder_.Empty()) PetscCall(recorder_.RecordLast(step, time, u, v_now.data()));
+  if (AtEnd() && !recorder_.Empty()) PetscCall(recorder_.RecordLast(step, time, u, v_now.data()));
   PetscCall(PetscLogEventEnd(events.frame, nullptr, nullptr, nullptr, nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -7,9 +7,6 @@ const std::vector<PetscOptionRow> &PetscOptionRows() {
   static const std::vector<PetscOptionRow> rows = {
       {"options_file", "a file", "",
        "reads options: YAML if it ends in .yaml or .yml, else lines of `-option value`; later options win"},
-      {"ts_max_time", "a number [s]", "", "the end; the last step lands on it"},
-      {"ts_max_steps", "an integer", "", "the most steps"},
-      {"ts_dt", "a number [s]", "by -ts_central_safety", "the step"},
       {"ts_monitor", "a PETSc viewer", "", "prints step and time"},
       {"ts_view", "a PETSc viewer", "", "prints the time stepper after the run"},
       {"log_view", "a PETSc viewer", "", "prints the time of every phase"},

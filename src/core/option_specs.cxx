@@ -61,9 +61,12 @@ static std::vector<OptionSpec> &Registry() {
       {"damping_beta", T::kReal, "s", "0", "Rayleigh damping by stiffness; it lowers the critical step", ""},
 
       {"solve", T::kWord, "", "dynamic", "what is computed: motion in time", "dynamic"},
+      {"ts_max_time", T::kReal, "s", "", "the end; the last step lands on it", ""},
+      {"ts_max_steps", T::kInt, "", "", "the most steps", ""},
+      {"ts_dt", T::kReal, "s", "by `-ts_central_safety`", "the step", ""},
       {"ts_central_safety", T::kReal, "", "0.9", "the step, unless `-ts_dt` gives it, is this times the critical one, fitted to the end time", ""},
       {"ts_central_check", T::kWord, "", "error", "what to do when `-ts_dt` is above the critical step", "error,warn,off"},
-      {"ts_central_batch", T::kInt, "", "up to the next thing due", "steps that TS takes as one; PETSc's monitors see batch ends", ""},
+      {"ts_central_batch", T::kInt, "", "1000", "most steps that TS takes as one, up to the next thing due; PETSc's monitors see batch ends", ""},
       {"deterministic", T::kFlag, "", "false", "only ways of computing that repeat to the last bit", ""},
 
       {"monitor_progress", T::kViewer, "", "", "prints step, time, rate and time left", ""},

@@ -44,10 +44,12 @@ inline const PetscInt *VertexArrangement(DMPolytopeType ct, PetscInt o) {
 #endif
 }
 
-#if PETSC_VERSION_LT(3, 23, 0)
-using MonitorDestroy = PetscErrorCode(void **);
+/// Steps that -ts_run_steps (3.24) still allows from this step on.
+#if PETSC_VERSION_LT(3, 24, 0)
+#define CdemRunStepsLeft(ts) PETSC_INT_MAX
 #else
-using MonitorDestroy = PetscCtxDestroyFn;
+#define CdemRunStepsLeft(ts) \
+  ((ts)->run_steps == PETSC_INT_MAX ? PETSC_INT_MAX : (ts)->start_step + (ts)->run_steps - (ts)->steps)
 #endif
 
 }  // namespace cdem

@@ -4,6 +4,8 @@
 #include "forces/host_passes.hpp"
 
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace cdem {
 
@@ -44,6 +46,8 @@ class Backend {
   /// Host copies of u, v [n_local][3] (ghosts up to date) and of the spring histories; pointers stay valid until the
   /// next call.
   virtual PetscErrorCode Download(const double **u, const double **v, const std::vector<SpringHistory> **history) = 0;
+  /// Wall time of the steps by phase [s]: elements, springs, nodes, halo. Empty where the phases run in one graph.
+  virtual std::vector<std::pair<std::string, double>> Phases() const { return {}; }
   /// Waits until everything launched has run.
   virtual PetscErrorCode Synchronize() = 0;
 };

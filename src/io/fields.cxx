@@ -35,8 +35,10 @@ PetscErrorCode FieldOutput::Open(const std::string &dir, const Mesh &mesh, const
   std::vector<std::int64_t> global(nodes.global);
   global.resize(nodes.n_local);
   if (nodes.halo) {
-    PetscCall(PetscSFBcastBegin(nodes.halo, MPI_INT64_T, nodes.global.data(), &global[nodes.n_owned], MPI_REPLACE));
-    PetscCall(PetscSFBcastEnd(nodes.halo, MPI_INT64_T, nodes.global.data(), &global[nodes.n_owned], MPI_REPLACE));
+    PetscCall(
+        PetscSFBcastBegin(nodes.halo, MPI_INT64_T, nodes.global.data(), global.data() + nodes.n_owned, MPI_REPLACE));
+    PetscCall(
+        PetscSFBcastEnd(nodes.halo, MPI_INT64_T, nodes.global.data(), global.data() + nodes.n_owned, MPI_REPLACE));
   }
   VtkMesh vtk;
   vtk.point_global = nodes.global;

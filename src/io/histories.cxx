@@ -28,6 +28,7 @@ PetscErrorCode HistoryRecorder::Write(const std::vector<PetscInt> &steps, const 
                                       std::vector<double> &values) {
   PetscFunctionBeginUser;
   const int n = static_cast<int>(values.size());
+  for (double &value : values) value += 0.0;  // -0 and 0 become one, whatever is added below
   // Each value is non-zero on the rank that owns its node alone, so the sum is that value to the last bit.
   PetscCallMPI(MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : values.data(), values.data(), n, MPI_DOUBLE, MPI_SUM, 0, comm_));
   std::vector<std::vector<double>> rows(steps.size());

@@ -24,7 +24,7 @@ struct Interval {
     if (steps > 0) n = steps - step % steps;
     if (seconds > 0) {
       const double gap = ((Count(time, dt) + 1) * seconds - time) / dt;
-      n = std::min<PetscInt>(n, std::max<PetscInt>(1, static_cast<PetscInt>(std::ceil(gap - 1e-6))));
+      if (gap < static_cast<double>(n)) n = std::max<PetscInt>(1, static_cast<PetscInt>(std::ceil(gap - 1e-6)));
     }
     return n;
   }

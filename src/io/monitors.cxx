@@ -79,22 +79,43 @@ PetscErrorCode ReadInterval(Options &options, const std::string &prefix, Interva
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Monitors::Create(MPI_Comm comm, Options &options, PetscInt last_step) {
+PetscErrorCode Monitors::ReadOptions(Options &options, PetscInt last_step) {
   PetscFunctionBeginUser;
   for (int i = 0; i < kMonitorCount; ++i) {
     const MonitorRow &row = kMonitors[i];
-    Active a{&row, nullptr, PETSC_VIEWER_DEFAULT, Interval()};
-    PetscBool set;
-    const std::string dashed = std::string("-") + row.option;
-    PetscCall(ViewerFromOption(comm, dashed.c_str(), &a.viewer, &a.format, &set));
     bool has;
     PetscCall(options.Has(row.option, &has));
-    if (!set || !a.viewer) continue;  // absent, or given as false
+    if (!has) continue;
+    Active a{&row, nullptr, PETSC_VIEWER_DEFAULT, Interval()};
     a.interval.steps = row.observes ? 100 : (last_step < PETSC_INT_MAX ? std::max<PetscInt>(1, last_step / 20) : 1000);
+    PetscCall(ReadInterval(options, std::string(row.option) + "_", &a.interval));
     active_.push_back(a);
-    PetscCall(ReadInterval(options, std::string(row.option) + "_", &active_.back().interval));
-    if (row.header) PetscCall(PetscViewerASCIIPrintf(a.viewer, "%s\n", row.header));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Monitors::Open(MPI_Comm comm) {
+  PetscFunctionBeginUser;
+  std::vector<Active> open;
+  for (Active &a : active_) {
+    const std::string option = std::string("-") + a.row->option;
+    char text[PETSC_MAX_PATH_LEN] = "";
+    PetscBool set, on = PETSC_TRUE;
+    PetscCall(PetscOptionsGetString(nullptr, nullptr, option.c_str(), text, sizeof text, &set));
+    const std::string value = text;
+    if (value == "true" || value == "false") {  // what YAML makes of a switch
+      PetscCall(PetscOptionsGetBool(nullptr, nullptr, option.c_str(), &on, &set));
+      if (!on) continue;
+      PetscCall(PetscViewerASCIIGetStdout(comm, &a.viewer));
+      PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(a.viewer)));
+    } else {
+      PetscCall(ViewerFromOption(comm, option.c_str(), &a.viewer, &a.format, &set));
+      if (!set || !a.viewer) continue;
+    }
+    if (a.row->header) PetscCall(PetscViewerASCIIPrintf(a.viewer, "%s\n", a.row->header));
+    open.push_back(a);
+  }
+  active_ = open;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

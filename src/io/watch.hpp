@@ -40,7 +40,9 @@ class Monitors {
  public:
   ~Monitors();
   /// [in] last_step: number of steps of the run if known, else PETSC_INT_MAX.
-  PetscErrorCode Create(MPI_Comm comm, Options &options, PetscInt last_step);
+  PetscErrorCode ReadOptions(Options &options, PetscInt last_step);
+  /// Creates the viewers, and with them their files; when everything else has been checked.
+  PetscErrorCode Open(MPI_Comm comm);
   PetscInt ToNext(PetscInt step, double time, double dt) const;
   bool Due(PetscInt step, double time, double dt, bool last) const;
   bool Observes(PetscInt step, double time, double dt, bool last) const;

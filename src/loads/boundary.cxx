@@ -59,30 +59,38 @@ PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vecto
   PetscCall(options.Text(key("components"), &word, &components));
   if (components) PetscCall(ParseComponents(mesh.comm, key("components"), word, only));
   const std::pair<const char *, int> motions[] = {{"velocity", kVelocity}, {"displacement", kDisplacement}};
-  for (int m = 0; m < 2; ++m) {
-    double value[3];
-    PetscCall(options.Reals(key(motions[m].first), 3, value, &moved[m]));
-    if (!moved[m]) continue;
-    any = true;
-    for (int k = 0; k < 3; ++k) {
-      const bool fixed = b->kind[k] == kVelocity;
-      CdemCheck(!(fixed && components && only[k]), mesh.comm,
-                "boundary '%s' fixes component %c and prescribes its %s: give one", b->name.c_str(), 'x' + k,
-                motions[m].first);
-      if (only[k] && !fixed) b->kind[k] = motions[m].second, b->value[k] = value[k];
-    }
-  }
+  double value[2][3];
+  for (int m = 0; m < 2; ++m) PetscCall(options.Reals(key(motions[m].first), 3, value[m], &moved[m]));
   CdemCheck(!(moved[0] && moved[1]), mesh.comm, "boundary '%s' prescribes both velocity and displacement: give one",
             b->name.c_str());
+  for (int m = 0; m < 2; ++m) {
+    if (!moved[m]) continue;
+    any = true;
+    CdemCheck(b->kind[0] == kFree || b->kind[1] == kFree || b->kind[2] == kFree, mesh.comm,
+              "boundary '%s' fixes all components and prescribes a %s: give one", b->name.c_str(), motions[m].first);
+    for (int k = 0; k < 3; ++k) {
+      const bool fixed = b->kind[k] == kVelocity;
+      CdemCheck(!(fixed && only[k] && (components || value[m][k] != 0)), mesh.comm,
+                "boundary '%s' fixes component %c and prescribes its %s: give one", b->name.c_str(), 'x' + k,
+                motions[m].first);
+      if (only[k] && !fixed) b->kind[k] = motions[m].second, b->value[k] = value[m][k];
+    }
+  }
   CdemCheck(!components || moved[0] || moved[1], mesh.comm,
             "%s: there is no velocity or displacement on boundary '%s' whose components it could choose",
             Options::Spelled(key("components")).c_str(), b->name.c_str());
   bool traction, pressure, gradient;
   PetscCall(options.Reals(key("traction"), 3, b->traction, &traction));
   PetscCall(options.Real(key("pressure"), &b->pressure, &pressure));
-  PetscCall(options.Real(key("gradient_z"), &b->gradient_z, &gradient));
+  double per_metre = 0;
+  PetscCall(options.Real(key("gradient_z"), &per_metre, &gradient));
   CdemCheck(!gradient || (pressure != traction), mesh.comm,
             "boundary '%s': gradient_z belongs to a pressure or to a traction; give one of them", b->name.c_str());
+  const double size = std::sqrt(Dot(b->traction, b->traction));
+  CdemCheck(!gradient || !traction || size > 0, mesh.comm,
+            "boundary '%s': gradient_z goes along the traction, which is zero and has no direction", b->name.c_str());
+  if (gradient && traction) b->traction_gradient_z = per_metre / size;
+  if (gradient && pressure) b->pressure_gradient_z = per_metre;
   b->loaded = traction || pressure;
   CdemCheck(!b->loaded || b->surface >= 0, mesh.comm, "boundary '%s': traction and pressure need a surface",
             b->name.c_str());
@@ -121,7 +129,6 @@ void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Fac
   for (int j = 0; j < size; ++j) std::copy_n(mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][j]]), 3, x[j]);
   FacePoint points[4];
   const int n = FacePoints(size, x, points);
-  const double tx = Dot(b.traction, b.traction);
   for (int j = 0; j < size; ++j) {
     const PetscInt node = FaceNode(mesh, nodes, face, j, 0);
     if (node < 0 || node >= nodes.n_owned) continue;
@@ -130,9 +137,7 @@ void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Fac
       double z = 0;
       for (int i = 0; i < size; ++i) z += points[g].shape[i] * x[i][2];
       const double area = std::sqrt(Dot(points[g].area, points[g].area));
-      // gradient_z belongs to whichever of the two is given: to a traction along its own direction
-      const double along = tx > 0 ? 1 + b.gradient_z * z / std::sqrt(tx) : 0;
-      const double p = tx > 0 ? b.pressure : b.pressure + b.gradient_z * z;
+      const double along = 1 + b.traction_gradient_z * z, p = b.pressure + b.pressure_gradient_z * z;
       for (int k = 0; k < 3; ++k)
         load[k] += points[g].shape[j] * (b.traction[k] * along * area - p * points[g].area[k]);
     }

@@ -15,7 +15,9 @@ struct Boundary {
   double value[3] = {0, 0, 0};          ///< m or m/s, times the table
   bool loaded = false;                  ///< traction or pressure below
   double traction[3] = {0, 0, 0};       ///< Pa
-  double pressure = 0, gradient_z = 0;  ///< Pa, Pa/m
+  double pressure = 0;                  ///< Pa
+  double pressure_gradient_z = 0;       ///< Pa/m
+  double traction_gradient_z = 0;       ///< of the traction, as a share of it [1/m]
   int table = 0;
 };
 

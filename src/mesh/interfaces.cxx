@@ -83,6 +83,13 @@ PetscErrorCode SelectInterfaces(const Mesh &mesh, Options &options, std::vector<
               "%s: interface '%s' has no face: the faces asked for lie on the outer boundary, or there are none",
               spelled.c_str(), name.c_str());
   }
+  for (std::size_t i = 0; i < names->size(); ++i) {
+    PetscInt count = std::count(face_interface->begin(), face_interface->end(), static_cast<int>(i));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
+    CdemCheck(count > 0, mesh.comm,
+              "interface '%s' has no face left: later interfaces claim all of its faces; leave it out",
+              (*names)[i].c_str());
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -10,7 +10,6 @@ namespace cdem {
 struct HexFull {
   static constexpr Shape kShape = Shape::kHex;
   static constexpr int kCorners = 8;
-  static constexpr int kPoints = 8;
   static constexpr double kGauss = 0.57735026918962576451;
 
   // modes: xi, eta, zeta, xi eta, eta zeta, xi zeta, xi eta zeta

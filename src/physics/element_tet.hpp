@@ -8,7 +8,6 @@ namespace cdem {
 struct TetFull {
   static constexpr Shape kShape = Shape::kTet;
   static constexpr int kCorners = 4;
-  static constexpr int kPoints = 1;
 
   /// Internal forces f [4][3] [N] of displacements u [4][3] [m] at corners x [4][3] [m]; point as for HexFull.
   template <class T, class Point>

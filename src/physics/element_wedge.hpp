@@ -8,7 +8,6 @@ namespace cdem {
 struct WedgeFull {
   static constexpr Shape kShape = Shape::kWedge;
   static constexpr int kCorners = 6;
-  static constexpr int kPoints = 6;
   static constexpr double kGauss = 0.57735026918962576451;
 
   /// Internal forces f [6][3] [N] of displacements u [6][3] [m] at corners x [6][3] [m]; point as for HexFull.

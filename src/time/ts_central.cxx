@@ -15,7 +15,6 @@ constexpr PetscInt kDefaultBatch = 1000;
 struct Central {
   Stepper *stepper;
   PetscInt batch, base_step;
-  PetscBool batch_set;
   PetscReal base_time, dt, dt_old;  // dt of the current run of equal steps, dt of the last step taken
 };
 
@@ -29,6 +28,7 @@ PetscErrorCode Step(TS ts) {
   const bool whole = steps_left > 1 - 1e-6;  // else the last step is cut so that it lands on the end time
   if (whole) {
     n = std::min(c->batch, c->stepper->StepsToNext(ts->steps, ts->ptime, dt));
+    n = std::min<PetscInt>(n, CdemRunStepsLeft(ts));
     n = std::max<PetscInt>(1, std::min(n, ts->max_steps - ts->steps));
     if (steps_left < n) n = std::max<PetscInt>(1, static_cast<PetscInt>(std::floor(steps_left + 1e-6)));
   } else {
@@ -79,7 +79,7 @@ PetscErrorCode View(TS ts, PetscViewer viewer) {
 
 PetscErrorCode Create(TS ts) {
   PetscFunctionBegin;
-  ts->data = new Central{nullptr, kDefaultBatch, 0, PETSC_FALSE, 0, 0, 0};
+  ts->data = new Central{nullptr, kDefaultBatch, 0, 0, 0, 0};
   ts->ops->step = Step;
   ts->ops->setup = SetUp;
   ts->ops->destroy = Destroy;
@@ -97,7 +97,7 @@ PetscErrorCode RegisterTSCentral() {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode CreateTSCentral(MPI_Comm comm, Stepper *stepper, Vec u, Vec v, TS *ts) {
+PetscErrorCode CreateTSCentral(MPI_Comm comm, Stepper *stepper, PetscInt batch, Vec u, Vec v, TS *ts) {
   PetscFunctionBegin;
   PetscCall(TSCreate(comm, ts));
   PetscCall(TSSetType(*ts, kType));
@@ -106,22 +106,13 @@ PetscErrorCode CreateTSCentral(MPI_Comm comm, Stepper *stepper, Vec u, Vec v, TS
   c->stepper = stepper;
   PetscCall(TS2SetSolution(*ts, u, v));
   PetscCall(TSSetExactFinalTime(*ts, TS_EXACTFINALTIME_STEPOVER));  // Step() lands on the end time by itself
-  PetscCall(PetscOptionsGetInt(nullptr, nullptr, "-ts_central_batch", &c->batch, &c->batch_set));
-  PetscCheck(c->batch >= 1, comm, PETSC_ERR_USER_INPUT, "-ts_central_batch is %lld; it must be at least 1",
-             static_cast<long long>(c->batch));
+  if (batch > 0) c->batch = batch;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode TSCentralGetLastStep(TS ts, PetscReal *dt) {
   PetscFunctionBegin;
   *dt = static_cast<Central *>(ts->data)->dt_old;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode TSCentralGetBatch(TS ts, PetscInt *batch, PetscBool *set) {
-  PetscFunctionBegin;
-  *batch = static_cast<Central *>(ts->data)->batch;
-  *set = static_cast<Central *>(ts->data)->batch_set;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -25,12 +25,10 @@ class Stepper {
 
 /// Registers the type; once after PetscInitialize.
 PetscErrorCode RegisterTSCentral();
-/// Creates a TS of this type for a stepper (borrowed) and the vectors of TS2SetSolution. Options: -ts_central_batch, and
-/// TS's own.
-PetscErrorCode CreateTSCentral(MPI_Comm comm, Stepper *stepper, Vec u, Vec v, TS *ts);
+/// Creates a TS of this type for a stepper (borrowed) and the vectors of TS2SetSolution.
+/// [in] batch: most steps in one TSStep; 0: 1000.
+PetscErrorCode CreateTSCentral(MPI_Comm comm, Stepper *stepper, PetscInt batch, Vec u, Vec v, TS *ts);
 /// dt of the last step taken (0 before the first).
 PetscErrorCode TSCentralGetLastStep(TS ts, PetscReal *dt);
-/// Largest number of steps in one TSStep; set: whether the user gave it.
-PetscErrorCode TSCentralGetBatch(TS ts, PetscInt *batch, PetscBool *set);
 
 }  // namespace cdem
