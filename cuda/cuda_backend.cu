@@ -175,21 +175,27 @@ class CudaBackend final : public Backend {
   }
 
   void DropGraphs() {
-    for (StepGraph &g : graphs_)
-      if (g.exec) cudaGraphExecDestroy(std::exchange(g.exec, nullptr));
+    for (StepGraph *g : {&short_, &long_})
+      if (g->exec) cudaGraphExecDestroy(std::exchange(g->exec, nullptr));
   }
 
-  /// n equal steps: as many long graphs as fit, then short ones, then single steps.
+  /// n equal steps: single ones, then short graphs, then long ones. A long graph takes the host long to launch: this way
+  /// the GPU already works while it does.
   PetscErrorCode Replay(const NodeView &nodes, const StepArgs &args, int n) {
     PetscFunctionBeginUser;
     if (!(args == graph_args_)) DropGraphs();
     graph_args_ = args;
-    for (StepGraph &g : graphs_)
-      for (; n >= g.steps; n -= g.steps) {
-        if (!g.exec) PetscCall(Capture(nodes, args, &g));
-        CdemCuda(cudaGraphLaunch(g.exec, stream_));
-      }
-    for (; n > 0; --n) tables_.LaunchStep(nodes, args, batch_.get(), block_, stream_);
+    const int singles = n % short_.steps, shorts = n % long_.steps / short_.steps, longs = n / long_.steps;
+    for (int i = 0; i < singles; ++i) tables_.LaunchStep(nodes, args, batch_.get(), block_, stream_);
+    PetscCall(Launch(nodes, args, shorts, &short_));
+    PetscCall(Launch(nodes, args, longs, &long_));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Launch(const NodeView &nodes, const StepArgs &args, int times, StepGraph *g) {
+    PetscFunctionBeginUser;
+    if (times > 0 && !g->exec) PetscCall(Capture(nodes, args, g));
+    for (int i = 0; i < times; ++i) CdemCuda(cudaGraphLaunch(g->exec, stream_));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
@@ -226,7 +232,7 @@ class CudaBackend final : public Backend {
   DeviceArray<BatchState> batch_;
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
   cudaStream_t stream_ = nullptr;
-  StepGraph graphs_[2] = {{64, nullptr}, {8, nullptr}};
+  StepGraph short_{8, nullptr}, long_{64, nullptr};
   StepArgs graph_args_;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;
   std::vector<double> host_u_, host_v_;

@@ -157,7 +157,7 @@ PetscErrorCode Simulation::CreateBackend() {
   PetscFunctionBeginUser;
   std::string way = "auto";
   bool deterministic = false;
-  PetscInt per_block = 64;
+  PetscInt per_block = 32;
   PetscCall(options_.Word("central_way", &way));              // one way so far: the reference
   PetscCall(options_.Flag("deterministic", &deterministic));  // which is deterministic
   bool cuda = device_ == "cuda";
@@ -275,8 +275,10 @@ PetscErrorCode Simulation::Advance(const StepPlan &plan) {
   int good = batch.n;  // steps of the batch that are worth recording
   PetscCall(FirstFailure(failure, &good));
   if (!recorder_.Empty()) {
+    const double begin = MPI_Wtime();
     for (PetscInt j = 0; j < std::min(good + 1, batch.n); ++j) times.push_back(plan.Time(j));
     PetscCall(recorder_.Record(plan.first, times, history.data(), tables_.n_watch));
+    wall_output_ += MPI_Wtime() - begin;
   }
   if (good < batch.n) PetscCall(ReportFailure(plan, failure));
   PetscFunctionReturn(PETSC_SUCCESS);
