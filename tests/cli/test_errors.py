@@ -117,8 +117,6 @@ OPTIONS = {
     "step negative": ({"ts_dt": -1e-4}, ["-ts_dt"]),
     "end before the start": ({"ts_max_steps": DROP, "ts_max_time": -1.0}, ["-ts_max_time", "-1"]),
     "safety above 1": ({"ts_central_safety": 1.5}, ["-ts_central_safety", "1.5"]),
-    "histories without a folder": ({"output": DROP, "histories": "top", "history_top_at": (1, 1, 2),
-                                    "history_top_of": "displacement_z"}, ["-histories", "-output"]),
     # known words of no use here, and parts of the language that this version lacks
     "strength for a law without": ({**JOINTS, "interface_joints_law": "elastic"}, ["-interface_joints_"]),
     "a table that nobody uses": ({"tables": "t"}, ["'t'", "-table_t_type"]),
@@ -225,6 +223,23 @@ def test_good_mesh_is_accepted(tmp_path):
     put(tmp_path, msh())
     done = harness.call(tmp_path, changed(ON_MESH))
     assert done.returncode == 0, text_of(done)
+
+
+def test_histories_without_a_folder_are_said(tmp_path):
+    done = harness.call(tmp_path, changed({"output": DROP, "histories": "top", "history_top_at": (1, 1, 2),
+                                           "history_top_of": "displacement_z"}))
+    assert done.returncode == 0, text_of(done)
+    assert [line for line in text_of(done).splitlines() if "histories" in line and "not recorded" in line], text_of(done)
+
+
+def test_refused_run_leaves_monitor_files_alone(tmp_path):
+    put(tmp_path, "precious")
+    assert_refused(tmp_path, changed({"monitor_energy": "ascii:bad.msh", "gravty": 1}), ["-gravty", "-gravity"])
+    assert (tmp_path / "bad.msh").read_text() == "precious"
+
+
+def test_fix_and_velocity_of_one_component(tmp_path):
+    assert_refused(tmp_path, changed({"boundary_zmin_velocity": (0, 0, 1)}), ["zmin", "velocity"])
 
 
 def test_orphan_nodes_are_ignored_and_said(tmp_path):
