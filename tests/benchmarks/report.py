@@ -29,8 +29,8 @@ def line(case):
     """One case on the terminal."""
     name = f"{case['name']:18s}"
     if "points" in case:
-        return (f"{name}{1e6 * case['a']:.2f} us a step and {1e6 * case['c']:.2f} us a batch: "
-                f"{100 * case['cost']:.4f} % with 1,000 steps a batch")
+        return (f"{name}{1e6 * case['a']:.2f} us a step and {1e6 * case['c']:.2f} us a batch: {100 * case['cost']:.4f} % with "
+                f"1,000 steps a batch; against 8,000 {100 * case['direct']:+.2f} %  {'' if case['reached'] else 'MISSED'}")
     if "peak_gib" in case:
         return f"{name}{case['seconds']:.2f} s, {case['peak_gib']:.2f} GiB, spread {percent(case['spread'])}"
     if "forms" in case:
@@ -77,20 +77,23 @@ def command(case, about):
 
 
 def ts(case):
-    micro = [1e6 * v for v in (case["a"], case["c"], *case["c_range"])]
     text = ("## Cost of TS\n"
-            "The brick without histories, in batches (`-ts_central_batch`) of several lengths. A turn runs every length once;\n"
-            "fit of a turn: time a step = a + c / batch. What a batch costs holds all that is done once a batch: TS itself, the\n"
-            "event log, the check for unstable motion and, on a GPU, launches, copies and the wait for its end.\n\n"
-            "| steps a batch | time a step, us | fastest, us | spread |\n|---|---|---|---|\n")
+            "The brick without histories, in batches (`-ts_central_batch`) of several lengths; a turn runs every length.\n"
+            "What a batch costs holds all that is done once a batch: TS itself, the event log, the check for unstable\n"
+            "motion and, on a GPU, launches, copies and the wait for its end.\n\n"
+            "| steps a batch | time a step, us | of the fastest runs, us | spread |\n|---|---|---|---|\n")
     for p in case["points"]:
         text += f"| {p['batch']:,} | {1e6 * p['step']:.3f} | {1e6 * p['fastest']:.3f} | {percent(p['spread'])} |\n"
-    return text + (f"\nFastest of {sum(r['used'] for r in case['runs'])} turns: a = {micro[0]:.3f} us a step, "
-                   f"c = {micro[1]:.2f} us a batch (single turns from {micro[2]:.2f} to {micro[3]:.2f}; below 0: noise). "
-                   f"With batches of 1,000 TS costs **{100 * case['cost']:.4f} %** "
-                   f"(bar: under 1 %, {'reached' if case['reached'] else '**missed**'}). Batches of 1,000 against one of 8,000, "
-                   f"median measured directly: {100 * case['direct']:+.2f} % (single turns from {100 * case['direct_range'][0]:+.2f} to "
-                   f"{100 * case['direct_range'][1]:+.2f}: the noise of whole runs).\n\n")
+    low, high = case["direct_range"]
+    return text + (f"\nBar: under 1 % with batches of 1,000: {'reached' if case['reached'] else '**missed**'}.\n\n"
+                   f"- Fit of a + c / batch to the fastest runs of {sum(r['used'] for r in case['runs'])} turns: "
+                   f"a = {1e6 * case['a']:.3f} us a step, c = {1e6 * case['c']:.2f} us a batch: {100 * case['cost']:.4f} %"
+                   f"{' (below 0: noise)' if case['c'] < 0 else ''}.\n"
+                   f"- 1,000 against 8,000, measured directly: {100 * case['direct']:+.2f} %; in single turns from {100 * low:+.2f} "
+                   f"to {100 * high:+.2f} %{': noise' if low < 0 < high else ''}.\n"
+                   + (f"- Time a step: the difference of runs of {case['steps']:,} and {2 * case['steps']:,} steps, so that what is "
+                      "done once a run is not in it.\n\n" if "steps" in case else
+                      "- Time a step: of runs of 8,000 steps; what is done once a run is in it.\n\n"))
 
 
 def setup(case):
