@@ -1,7 +1,9 @@
 // The tables on the device, and the launches of one step over them.
 #pragma once
 #include "cuda/device_array.cuh"
-#include "cuda/kernels.cuh"
+#include "cuda/element_kernels.cuh"
+#include "cuda/node_kernels.cuh"
+#include "cuda/spring_kernels.cuh"
 #include "forces/backend.hpp"
 
 namespace cdem {

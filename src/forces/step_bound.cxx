@@ -69,8 +69,8 @@ double LanesBound(const Canonical *batch, const std::vector<Material> &materials
       for (int k = 0; k < 3; ++k) x[a][k][l] = batch[l].x[a][k];
       scale[a][l] = 1 / std::sqrt(m.density * volume[a]);
     }
-    param[Elastic::kLambda][l] = m.lambda;
-    param[Elastic::kMu][l] = m.mu;
+    param[Elastic::kLambda][l] = m.lambda();
+    param[Elastic::kMu][l] = m.mu();
   }
   static thread_local Lanes a[n][n], b[n][n];
   Lanes trace{};

@@ -111,8 +111,8 @@ void FaceStiffness(const Mesh &mesh, const std::vector<Material> &materials, con
   CellCentre(mesh, face.cell[1], c1);
   for (int k = 0; k < 3; ++k) d2 += (c1[k] - c0[k]) * (c1[k] - c0[k]);
   const double b_over_h = joint.stiffness_factor / std::sqrt(d2);
-  if (*kn < 0) *kn = b_over_h * std::min(m0.lambda + 2 * m0.mu, m1.lambda + 2 * m1.mu);
-  if (*ks < 0) *ks = b_over_h * std::min(m0.mu, m1.mu);
+  if (*kn < 0) *kn = b_over_h * std::min(m0.lambda() + 2 * m0.mu(), m1.lambda() + 2 * m1.mu());
+  if (*ks < 0) *ks = b_over_h * std::min(m0.mu(), m1.mu());
 }
 
 void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,

@@ -4,7 +4,7 @@
 
 namespace cdem {
 
-struct Elastic {
+struct Elastic : BlockLawDefaults {
   static constexpr const char *kName = "elastic";
   static constexpr bool kLinear = true;  ///< the forces are linear in u: beta damping acts on u + beta v for free
   enum { kLambda, kMu, kParams };        ///< Pa
@@ -13,8 +13,8 @@ struct Elastic {
       {{"young", "Pa", 0, kPropertyInf, kPropertyOpen, "Young's modulus"},
        {"poisson", "", -1, 0.5, kPropertyOpen, "Poisson's ratio"}}};
 
-  /// Parameters of the point function from the properties above.
-  static void Derive(const double *property, double *param) {
+  /// Parameters of the point function from the properties above. [in] size: of the element [m], for laws that need it.
+  static void Derive(const double *property, double /*size*/, double *param) {
     double e = property[0], nu = property[1];
     param[kLambda] = e * nu / ((1 + nu) * (1 - 2 * nu));
     param[kMu] = e / (2 * (1 + nu));

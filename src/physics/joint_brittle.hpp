@@ -9,10 +9,8 @@ namespace cdem {
 /// Bits of a spring's state, in history laws.
 enum SpringState { kTensionLost = 1, kCohesionLost = 2, kSliding = 4, kOpen = 8 };
 
-struct JointBrittle {
+struct JointBrittle : JointLawDefaults {
   static constexpr const char *kName = "brittle";
-  static constexpr bool kLinear = false;
-  static constexpr bool kHistory = true;
   enum { kTension, kCohesion, kTanPhi, kKeepTension, kParams };  ///< Pa, Pa, -, 0 or 1
 
   /// Strengths of one interface; tension above cohesion / tan(phi) has been cut to it at set-up.

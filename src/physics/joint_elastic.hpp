@@ -4,7 +4,7 @@
 
 namespace cdem {
 
-struct JointElastic {
+struct JointElastic : JointLawDefaults {
   static constexpr const char *kName = "elastic";
   static constexpr bool kLinear = true;
   static constexpr bool kHistory = false;  ///< no state byte, no slip

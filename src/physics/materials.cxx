@@ -1,22 +1,42 @@
 #include "physics/materials.hpp"
 
 #include "core/error.hpp"
+#include "core/option_names.hpp"
 #include "core/options.hpp"
 #include "physics/laws.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
+
+void DeriveBlock(int law, const double *property, double size, double *param) {
+  BlockLaws::Visit(law, [&](auto l) { decltype(l)::Derive(property, size, param); });
+}
+
+void DeriveJoint(int law, const double *property, double *param) {
+  JointLaws::Visit(law, [&](auto l) { decltype(l)::Derive(property, param); });
+}
 
 /// Reads one property of a law and checks its range.
 static PetscErrorCode ReadProperty(Options &options, const std::string &family, const std::string &name,
                                    const Property &property, double *value) {
   PetscFunctionBeginUser;
   const OptionKey key(family, name, property.key);
+  if (*property.words) {
+    const std::vector<std::string> words = SplitList(property.words);
+    std::string word = words[static_cast<std::size_t>(property.fallback)];
+    PetscCall(options.Word(key, &word));  // which refuses other words
+    *value = static_cast<double>(std::find(words.begin(), words.end(), word) - words.begin());
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   bool set;
+  *value = property.fallback;
   PetscCall(options.Real(key, value, &set));
-  CdemCheck(set, options.comm(), "%s '%s' has no %s: give %s%s%s", family == "block" ? "region" : "interface",
-            name.c_str(), property.key, Options::Spelled(key).c_str(), *property.unit ? " in " : "", property.unit);
+  CdemCheck(set || !std::isnan(property.fallback), options.comm(), "%s '%s' has no %s: give %s%s%s",
+            family == "block" ? "region" : "interface", name.c_str(), property.key, Options::Spelled(key).c_str(),
+            *property.unit ? " in " : "", property.unit);
+  if (!set) PetscFunctionReturn(PETSC_SUCCESS);
   const char *left = property.bounds == kPropertyOpen ? "above" : "at least";
   const char *right = property.bounds == kPropertyOpen ? "below" : "at most";
   if (std::isinf(property.high))
@@ -28,14 +48,16 @@ static PetscErrorCode ReadProperty(Options &options, const std::string &family, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/// Reads all properties of a law and derives the parameters of its point function.
+/// Reads all properties of a law and checks them together.
 template <class Law>
-static PetscErrorCode ReadLaw(Options &options, const std::string &family, const std::string &name, double *param) {
+static PetscErrorCode ReadLaw(Options &options, const std::string &family, const std::string &name, double *property) {
   PetscFunctionBeginUser;
-  double value[Law::kProperties.size() + 1] = {};
+  static_assert(Law::kProperties.size() <= kMaxProperties && Law::kParams <= kMaxParams, "raise the limit");
   for (std::size_t i = 0; i < Law::kProperties.size(); ++i)
-    PetscCall(ReadProperty(options, family, name, Law::kProperties[i], &value[i]));
-  Law::Derive(value, param);
+    PetscCall(ReadProperty(options, family, name, Law::kProperties[i], &property[i]));
+  const std::string wrong = Law::Check(property);
+  CdemCheck(wrong.empty(), options.comm(), "%s '%s': %s", family == "block" ? "region" : "interface", name.c_str(),
+            wrong.c_str());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -61,14 +83,11 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
     PetscCall(ReadLawName<BlockLaws>(options, "block", regions[r], &material.law));
     const Property density{"density", "kg/m^3", 0, kPropertyInf, kPropertyOpen};
     PetscCall(ReadProperty(options, "block", regions[r], density, &material.density));
-    double elastic[Elastic::kParams] = {};
-    PetscCall(ReadLaw<Elastic>(options, "block", regions[r], elastic));
-    material.lambda = elastic[Elastic::kLambda];
-    material.mu = elastic[Elastic::kMu];
     PetscErrorCode ierr = PETSC_SUCCESS;
     BlockLaws::Visit(material.law,
-                     [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.param); });
+                     [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.property); });
     PetscCall(ierr);
+    DeriveBlock(material.law, material.property, 1, material.param);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -91,8 +110,9 @@ PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &name
     }
     PetscErrorCode ierr = PETSC_SUCCESS;
     JointLaws::Visit(joint.law,
-                     [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "interface", name, joint.param); });
+                     [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "interface", name, joint.property); });
     PetscCall(ierr);
+    DeriveJoint(joint.law, joint.property, joint.param);
     if (joint.law == JointLaws::Find(JointBrittle::kName)) {
       std::string initial = "intact";
       bool keep = false;

@@ -10,21 +10,30 @@ namespace cdem {
 
 class Options;
 
+inline constexpr int kMaxProperties = 20;  ///< properties a law may ask for
+
 /// A region's law and its numbers.
 struct Material {
-  int law = 0;                ///< number in BlockLaws
-  double density = 0;         ///< kg/m^3
-  double lambda = 0, mu = 0;  ///< elastic part [Pa]
-  double param[kMaxParams] = {};
+  int law = 0;                                ///< number in BlockLaws
+  double density = 0;                         ///< kg/m^3
+  double property[kMaxProperties] = {};       ///< in the order of the law's kProperties
+  double param[kMaxParams] = {};              ///< of an element of size 1 m
+  double lambda() const { return param[0]; }  ///< elastic part [Pa]
+  double mu() const { return param[1]; }
 };
 
 /// An interface's law and its numbers. Stiffness is per area [Pa/m]; negative: stiffness_factor times that of the blocks.
 struct Joint {
   int law = 0;  ///< number in JointLaws
   double kn = -1, ks = -1, stiffness_factor = 20;
-  bool broken = false;  ///< from the start
+  bool broken = false;                   ///< from the start
+  double property[kMaxProperties] = {};  ///< in the order of the law's kProperties
   double param[kMaxParams] = {};
 };
+
+/// Parameters of a block law (an interface law) from its properties. [in] size: of the element [m].
+void DeriveBlock(int law, const double *property, double size, double *param);
+void DeriveJoint(int law, const double *property, double *param);
 
 /// Reads -block_<region>_*. Errors: a region without material, a value out of its range.
 PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions,

@@ -11,7 +11,7 @@ namespace {
 TEST(ElasticLaw, ClosedForms) {
   const double young = 7e9, nu = 0.2, property[] = {young, nu};
   double param[Elastic::kParams], s[6];
-  Elastic::Derive(property, param);
+  Elastic::Derive(property, 1, param);
   const double e = 3e-4, bar = 1e-15 * young * e * 4;
   const double rod[6] = {e, -nu * e, -nu * e, 0, 0, 0};
   Elastic::Stress(param, rod, s);

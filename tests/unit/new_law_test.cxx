@@ -9,14 +9,14 @@ namespace cdem {
 namespace {
 
 /// Elastic, with twice the lambda.
-struct Stiffer {
+struct Stiffer : BlockLawDefaults {
   static constexpr const char *kName = "stiffer";
   static constexpr bool kLinear = true;
   enum { kLambda, kMu, kParams };
   static constexpr auto kProperties = Elastic::kProperties;
 
-  static void Derive(const double *property, double *param) {
-    Elastic::Derive(property, param);
+  static void Derive(const double *property, double size, double *param) {
+    Elastic::Derive(property, size, param);
     param[kLambda] *= 2;
   }
   template <class T>
@@ -26,7 +26,7 @@ struct Stiffer {
 };
 
 /// A linear interface law: no shear at all.
-struct Slippery {
+struct Slippery : JointLawDefaults {
   static constexpr const char *kName = "slippery";
   static constexpr bool kLinear = true;
   static constexpr bool kHistory = false;
@@ -42,10 +42,8 @@ struct Slippery {
 };
 
 /// An interface law with history: it opens at its strength in tension, and never slides.
-struct Glue {
+struct Glue : JointLawDefaults {
   static constexpr const char *kName = "glue";
-  static constexpr bool kLinear = false;
-  static constexpr bool kHistory = true;
   enum { kTension, kCohesion, kTanPhi, kKeepTension, kParams };
   static constexpr std::array<Property, 1> kProperties = {{{"strength", "Pa", 0, kPropertyInf, kPropertyOpen}}};
   static void Derive(const double *property, double *param) {
@@ -113,7 +111,7 @@ std::vector<double> CornerForces(int law, double lambda_factor) {
   Blocks::Visit(law, [&](auto l) {
     using Law = decltype(l);
     double derived[kMaxParams] = {};
-    Law::Derive(property, derived);
+    Law::Derive(property, 1, derived);
     derived[Elastic::kLambda] *= lambda_factor;
     for (int p = 0; p < Law::kParams; ++p) param[p] = Lanes{} + derived[p];
     ElementSums<Lanes> sums;

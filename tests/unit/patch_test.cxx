@@ -220,7 +220,7 @@ TEST(PatchWithSprings, OnAllFacesOfRegularBoxes) {
       const double size = std::sqrt(Dot(n, n)), h = std::sqrt(Dot(edge[i], edge[i]));
       for (double &component : n) component /= size;
       const Material &m = body.materials[0];
-      Jump(exact, n, b * (m.lambda + 2 * m.mu) / h, b * m.mu / h, d[i]);
+      Jump(exact, n, b * (m.lambda() + 2 * m.mu()) / h, b * m.mu() / h, d[i]);
     }
     std::vector<double> u = LinearField(body.tables, g);
     for (PetscInt c = 0; c < 36; ++c)

@@ -12,10 +12,8 @@ namespace cdem {
 inline Material MakeMaterial(double young, double poisson, double density) {
   Material m;
   const double property[] = {young, poisson};
-  Elastic::Derive(property, m.param);
+  Elastic::Derive(property, 1, m.param);
   m.density = density;
-  m.lambda = m.param[Elastic::kLambda];
-  m.mu = m.param[Elastic::kMu];
   return m;
 }
 
@@ -84,11 +82,11 @@ struct Gradient {
   }
   /// D : sym(G), by the formula and not by the law.
   void Stress(const Material &m, double s[6]) const {
-    const double pressure = m.lambda * (g[0][0] + g[1][1] + g[2][2]);
-    for (int k = 0; k < 3; ++k) s[k] = 2 * m.mu * g[k][k] + pressure;
-    s[kXY] = m.mu * (g[0][1] + g[1][0]);
-    s[kYZ] = m.mu * (g[1][2] + g[2][1]);
-    s[kXZ] = m.mu * (g[0][2] + g[2][0]);
+    const double pressure = m.lambda() * (g[0][0] + g[1][1] + g[2][2]);
+    for (int k = 0; k < 3; ++k) s[k] = 2 * m.mu() * g[k][k] + pressure;
+    s[kXY] = m.mu() * (g[0][1] + g[1][0]);
+    s[kYZ] = m.mu() * (g[1][2] + g[2][1]);
+    s[kXZ] = m.mu() * (g[0][2] + g[2][0]);
   }
   /// G : sigma / 2 [J/m^3].
   double Energy(const double s[6]) const {

@@ -1,0 +1,77 @@
+// The loop over nodes on the GPU: one thread a node, which sums its slots in the order of the CPU's scatter, so no two
+// threads write one value and the sums do not depend on the launch.
+#pragma once
+#include "cuda/kernel_common.cuh"
+#include "forces/observe.hpp"
+
+namespace cdem {
+
+/// Which slots a node sums: slices of 32 nodes, entry k of node i at entry[start[i / 32] + 32 k + i % 32]; s >= 0 adds
+/// slot s, s < 0 subtracts slot ~s, kNoSlot adds nothing.
+struct SlotLists {
+  const int *start, *entry;
+  const double *slot;
+};
+
+/// Internal force of node i: its slots, in order.
+__device__ __forceinline__ void SumSlots(const SlotLists &lists, int i, double f[3]) {
+  const int slice = i >> 5, end = lists.start[slice + 1];
+  f[0] = f[1] = f[2] = 0;
+  for (int at = lists.start[slice] + (i & 31); at < end; at += 32) {
+    const int entry = lists.entry[at];
+    if (entry == kNoSlot) continue;
+    const double *s = lists.slot + 3ll * (entry < 0 ? ~entry : entry);
+    const double sign = entry < 0 ? -1.0 : 1.0;
+#pragma unroll
+    for (int k = 0; k < 3; ++k) f[k] += sign * s[k];
+  }
+}
+
+template <bool kRecords>
+__global__ void __launch_bounds__(kBlock) NodeKernel(NodeView n, StepArgs args, SlotLists lists, BatchState *batch) {
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i >= n.n_owned) return;
+  double f[3];
+  SumSlots(lists, i, f);
+  const int step = batch->step;
+  if (!NodeStep<kRecords>(n, args, i, step, f))
+    atomicMin(&batch->failure, static_cast<unsigned long long>(step) << 32 | static_cast<unsigned>(i));
+}
+
+/// Keeps the sums of the slots of an undamped evaluation.
+__global__ inline void __launch_bounds__(kBlock) SumKernel(int n_owned, SlotLists lists, double *f) {
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < n_owned) SumSlots(lists, i, f + 3ll * i);
+}
+
+/// [in] f: undamped internal forces, or NULL when there is no damping: then the slots hold them.
+template <bool kRecords>
+__global__ void __launch_bounds__(kBlock) NodeObserveKernel(NodeView n, StepArgs args, SlotLists lists,
+                                                            const double *mass, const double *f, double *partial) {
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  double value[kNodeSums] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+  if (i < n.n_owned) {
+    double damped[3], v_now[3];
+    SumSlots(lists, i, damped);
+    const double *f_int = f ? f + 3ll * i : damped;
+    const NodeSums s = ObserveNode<kRecords>(n, args, i, mass[i], f_int, damped, v_now);
+    value[0] = s.kinetic;
+    value[1] = s.form;
+    for (int k = 0; k < 3; ++k) value[2 + k] = s.momentum[k];
+    value[5] = s.residual;
+    value[6] = s.free;
+    value[7] = s.v2;
+    value[8] = s.u2;
+  }
+  // the last two are maxima
+  using Reduce = cub::BlockReduce<double, kBlock>;
+  __shared__ typename Reduce::TempStorage storage;
+  for (int k = 0; k < kNodeSums; ++k) {
+    const double r = k < 7 ? Reduce(storage).Sum(value[k])
+                           : Reduce(storage).Reduce(value[k], [](double p, double q) { return p > q ? p : q; });
+    if (threadIdx.x == 0) partial[static_cast<long long>(blockIdx.x) * kNodeSums + k] = r;
+    __syncthreads();
+  }
+}
+
+}  // namespace cdem

@@ -1,0 +1,91 @@
+// The loop over springs on the GPU: one thread a spring, which writes its force to its slot.
+#pragma once
+#include "cuda/kernel_common.cuh"
+#include "forces/spring_body.hpp"
+
+#include <cstdint>
+
+namespace cdem {
+
+struct SpringView {
+  int n, n_pad;
+  const int *a, *b, *joint;
+  const double *normal, *area, *kn, *ks, *param, *u, *v;
+  double beta;
+  std::uint8_t *state;
+  double *slip, *slot;
+  const std::uint8_t *counted;
+};
+
+/// One spring: writes its force to its slot; commits state and slip with kCommit. Returns the state it would leave.
+template <class Law, bool kBeta, bool kCommit>
+__device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i, double (&normal)[3],
+                                                     double (&force)[3]) {
+  Spring<double> s;
+  double param[kMaxParams];
+  const long long a = 3ll * t.a[i], b = 3ll * t.b[i];
+  std::uint8_t state = 0;
+#pragma unroll
+  for (int k = 0; k < 3; ++k) {
+    s.d[k] = t.u[b + k] - t.u[a + k];
+    s.beta_rate[k] = kBeta ? t.beta * (t.v[b + k] - t.v[a + k]) : 0.0;
+    s.normal[k] = normal[k] = t.normal[static_cast<long long>(k) * t.n_pad + i];
+  }
+  s.kn = t.kn[i];
+  s.ks = t.ks[i];
+  bool opens = false, slides = false;
+  if constexpr (Law::kHistory) {
+    s.area = t.area[i];
+    const double *row = t.param + kMaxParams * t.joint[i];
+#pragma unroll
+    for (int p = 0; p < Law::kParams; ++p) param[p] = row[p];
+    s.param = param;
+    state = t.state[i];
+    s.tension_lost = state & kTensionLost ? 1.0 : 0.0;
+    s.cohesion_lost = state & kCohesionLost ? 1.0 : 0.0;
+#pragma unroll
+    for (int k = 0; k < 3; ++k) s.slip[k] = state ? t.slip[static_cast<long long>(k) * t.n_pad + i] : 0.0;
+  }
+  SpringForce<Law, kBeta>(s, force, &opens, &slides);
+  std::uint8_t next = 0;
+  if constexpr (Law::kHistory) {
+    next = NextState(state, opens, slides, param[Law::kKeepTension] != 0);
+    if (kCommit) {
+      if (next != state) t.state[i] = next;
+      if (opens || slides)
+#pragma unroll
+        for (int k = 0; k < 3; ++k) t.slip[static_cast<long long>(k) * t.n_pad + i] = s.slip[k];
+    }
+  }
+#pragma unroll
+  for (int k = 0; k < 3; ++k) t.slot[3ll * i + k] = force[k];
+  return next;
+}
+
+template <class Law, bool kBeta>
+__global__ void __launch_bounds__(kBlock) SpringKernel(SpringView t) {
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i >= t.n) return;
+  double normal[3], force[3];
+  SpringThread<Law, kBeta, true>(t, i, normal, force);
+}
+
+template <class Law, bool kBeta>
+__global__ void __launch_bounds__(kBlock) SpringObserveKernel(SpringView t, double *partial) {
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  double value[kSpringSums] = {0, 0, 0, 0, 0};
+  if (i < t.n) {
+    double normal[3], force[3];
+    const std::uint8_t next = SpringThread<Law, kBeta, false>(t, i, normal, force);
+    if (t.counted[i]) {
+      value[0] = SpringEnergy(normal, t.kn[i], t.ks[i], force);
+      for (int k = 0; k < 3; ++k) value[1] += fabs(force[k]);
+      value[2] = 3;
+      value[3] = next & kCohesionLost ? 1 : 0;
+      value[4] = 1;
+    }
+  }
+  BlockSums(value, partial);
+}
+
+}  // namespace cdem
