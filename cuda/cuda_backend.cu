@@ -26,10 +26,10 @@ struct StepGraph {
 
 class CudaBackend final : public Backend {
  public:
-  CudaBackend(const Tables &tables, int block) : t_(tables), block_(block) {}
+  CudaBackend(const Tables &tables, int block) : t_(tables) { launch_.block = block; }
   ~CudaBackend() override {
     DropGraphs();
-    if (stream_ && !t_.halo) cudaStreamDestroy(stream_);
+    if (launch_.stream && !t_.halo) cudaStreamDestroy(launch_.stream);
     if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
   }
 
@@ -42,11 +42,17 @@ class CudaBackend final : public Backend {
     PetscCall(u_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
     PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
     PetscCall(batch_.Allocate(1));
+    PetscCall(state_.Allocate());
     // One rank: a stream of our own, which can be captured. Several: PETSc's, on which PetscSF packs and unpacks.
     if (t_.halo)
-      stream_ = PetscDefaultCudaStream;
+      launch_.stream = PetscDefaultCudaStream;
     else
-      CdemCuda(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
+      CdemCuda(cudaStreamCreateWithFlags(&launch_.stream, cudaStreamNonBlocking));
+    // -log_view_gpu_time asks for the time of every event: then each phase is waited for, and there are no graphs.
+    PetscBool timed = PETSC_FALSE;
+    PetscCall(PetscOptionsHasName(nullptr, nullptr, "-log_view_gpu_time", &timed));
+    launch_.timed = timed;
+    launch_.overlap = !t_.halo && !timed;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
@@ -79,30 +85,32 @@ class CudaBackend final : public Backend {
     PetscScalar *u, *v;
     PetscCall(VecCUDAGetArray(vec_u_, &u));  // PETSc must know that the device copies change
     PetscCall(VecCUDAGetArray(vec_v_, &v));
+    CdemCuda(cudaDeviceSynchronize());  // what PETSc did to the Vecs is done before our stream reads them
     PetscCall(Prepare(batch));
     const NodeView nodes = View();
-    CdemCuda(cudaDeviceSynchronize());  // what PETSc did to the Vecs is done before our stream reads them
     int done = 0;
-    if (t_.halo) {
+    if (t_.halo || launch_.timed) {
       for (; done < batch.n; ++done) {
         PetscCall(Halo());
-        tables_.LaunchStep(nodes, done == 0 ? batch.first : batch.rest, batch_.get(), block_, stream_);
+        PetscCall(tables_.LaunchStep(nodes, done == 0 ? batch.first : batch.rest, batch_.get(), launch_));
       }
     } else {
-      if (!(batch.first == batch.rest)) tables_.LaunchStep(nodes, batch.first, batch_.get(), block_, stream_), ++done;
+      if (!(batch.first == batch.rest)) {
+        PetscCall(tables_.LaunchStep(nodes, batch.first, batch_.get(), launch_));
+        ++done;
+      }
       PetscCall(Replay(nodes, batch.rest, batch.n - done));
     }
-    CdemCuda(cudaGetLastError());
-    BatchState state;
-    CdemCuda(cudaMemcpyAsync(&state, batch_.get(), sizeof state, cudaMemcpyDeviceToHost, stream_));
-    CdemCuda(cudaStreamSynchronize(stream_));
+    CdemCuda(cudaMemcpyAsync(state_.get(), batch_.get(), sizeof(BatchState), cudaMemcpyDeviceToHost, launch_.stream));
+    if (t_.n_watch > 0)
+      CdemCuda(cudaMemcpyAsync(batch.history, history_.get(),
+                               6 * sizeof(double) * t_.n_watch * static_cast<std::size_t>(batch.n),
+                               cudaMemcpyDeviceToHost, launch_.stream));
+    CdemCuda(cudaStreamSynchronize(launch_.stream));
     PetscCall(VecCUDARestoreArray(vec_u_, &u));
     PetscCall(VecCUDARestoreArray(vec_v_, &v));
-    if (t_.n_watch > 0)
-      CdemCuda(cudaMemcpy(batch.history, history_.get(),
-                          6 * sizeof(double) * t_.n_watch * static_cast<std::size_t>(batch.n), cudaMemcpyDeviceToHost));
-    if (state.failure != ~0ull)
-      *failure = Failure{static_cast<int>(state.failure >> 32), static_cast<int>(state.failure & 0xffffffffu)};
+    const unsigned long long failed = state_.get()->failure;
+    if (failed != ~0ull) *failure = Failure{static_cast<int>(failed >> 32), static_cast<int>(failed & 0xffffffffu)};
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
@@ -116,13 +124,13 @@ class CudaBackend final : public Backend {
       CdemCuda(cudaMemcpy(schedule_.get(), schedule, 3 * sizeof(double) * t_.n_tables, cudaMemcpyHostToDevice));
     PetscCall(Halo());
     CdemCuda(cudaDeviceSynchronize());
-    PetscCall(tables_.Observe(View(), next, stream_, observed));
+    PetscCall(tables_.Observe(View(), next, launch_.stream, observed));
     PetscCall(VecCUDARestoreArrayRead(vec_u_, &u));
     PetscCall(VecCUDARestoreArrayRead(vec_v_, &v));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
-  PetscErrorCode Download(const double **u, const double **v, const std::vector<SpringHistory> **history) override {
+  PetscErrorCode Download(const double **u, const double **v, const Histories **history) override {
     PetscFunctionBeginUser;
     const PetscScalar *array;
     for (Vec vec : {vec_u_, vec_v_}) {  // a Vec that the host changed last is brought to the device first
@@ -157,20 +165,25 @@ class CudaBackend final : public Backend {
     if (schedule > schedule_.size() || history > history_.size()) {
       DropGraphs();  // they hold the old addresses
       PetscCall(schedule_.Allocate(schedule));
+      scheduled_ = 0;
       PetscCall(history_.Allocate(history));
     }
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
+  /// Brings schedule and batch state to the device, without waiting for either.
   PetscErrorCode Prepare(const Batch &batch) {
     PetscFunctionBeginUser;
     PetscCall(Reserve(batch.n));
-    if (batch.schedule && schedule_.size() > 0)
-      CdemCuda(cudaMemcpy(schedule_.get(), batch.schedule,
-                          3 * sizeof(double) * t_.n_tables * static_cast<std::size_t>(batch.n),
-                          cudaMemcpyHostToDevice));
-    const BatchState start{-1, ~0ull};
-    CdemCuda(cudaMemcpy(batch_.get(), &start, sizeof start, cudaMemcpyHostToDevice));
+    const std::size_t schedule = 3 * static_cast<std::size_t>(t_.n_tables) * batch.n;
+    const bool constant = t_.n_tables == 1;  // table 0 is 1 at all times
+    if (batch.schedule && schedule_.size() > 0 && !(constant && scheduled_ >= schedule)) {
+      CdemCuda(cudaMemcpyAsync(schedule_.get(), batch.schedule, sizeof(double) * schedule, cudaMemcpyHostToDevice,
+                               launch_.stream));
+      scheduled_ = schedule;
+    }
+    *state_.get() = BatchState{0, -1, ~0ull, batch.base, batch.rest.dt, batch.offset};
+    CdemCuda(cudaMemcpyAsync(batch_.get(), state_.get(), sizeof(BatchState), cudaMemcpyHostToDevice, launch_.stream));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
@@ -186,7 +199,7 @@ class CudaBackend final : public Backend {
     if (!(args == graph_args_)) DropGraphs();
     graph_args_ = args;
     const int singles = n % short_.steps, shorts = n % long_.steps / short_.steps, longs = n / long_.steps;
-    for (int i = 0; i < singles; ++i) tables_.LaunchStep(nodes, args, batch_.get(), block_, stream_);
+    for (int i = 0; i < singles; ++i) PetscCall(tables_.LaunchStep(nodes, args, batch_.get(), launch_));
     PetscCall(Launch(nodes, args, shorts, &short_));
     PetscCall(Launch(nodes, args, longs, &long_));
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -195,17 +208,18 @@ class CudaBackend final : public Backend {
   PetscErrorCode Launch(const NodeView &nodes, const StepArgs &args, int times, StepGraph *g) {
     PetscFunctionBeginUser;
     if (times > 0 && !g->exec) PetscCall(Capture(nodes, args, g));
-    for (int i = 0; i < times; ++i) CdemCuda(cudaGraphLaunch(g->exec, stream_));
+    for (int i = 0; i < times; ++i) CdemCuda(cudaGraphLaunch(g->exec, launch_.stream));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
   PetscErrorCode Capture(const NodeView &nodes, const StepArgs &args, StepGraph *g) {
     PetscFunctionBeginUser;
     cudaGraph_t graph;
-    CdemCuda(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeThreadLocal));
-    for (int i = 0; i < g->steps; ++i) tables_.LaunchStep(nodes, args, batch_.get(), block_, stream_);
-    CdemCuda(cudaStreamEndCapture(stream_, &graph));
+    CdemCuda(cudaStreamBeginCapture(launch_.stream, cudaStreamCaptureModeThreadLocal));
+    for (int i = 0; i < g->steps; ++i) PetscCall(tables_.LaunchStep(nodes, args, batch_.get(), launch_));
+    CdemCuda(cudaStreamEndCapture(launch_.stream, &graph));
     CdemCuda(cudaGraphInstantiate(&g->exec, graph, 0));
+    CdemCuda(cudaGraphUpload(g->exec, launch_.stream));
     CdemCuda(cudaGraphDestroy(graph));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -226,17 +240,18 @@ class CudaBackend final : public Backend {
   }
 
   const Tables &t_;
-  int block_;
+  LaunchArgs launch_;
   DeviceTables tables_;
   DeviceArray<double> u_, v_, schedule_, history_;
   DeviceArray<BatchState> batch_;
+  PinnedValue<BatchState> state_;          // the host side of batch_
+  std::size_t scheduled_ = 0;              // doubles of schedule_ that are filled
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
-  cudaStream_t stream_ = nullptr;
   StepGraph short_{8, nullptr}, long_{64, nullptr};
   StepArgs graph_args_;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;
   std::vector<double> host_u_, host_v_;
-  std::vector<SpringHistory> host_history_;
+  Histories host_history_;
 };
 
 }  // namespace

@@ -65,4 +65,23 @@ class DeviceArray {
   std::size_t size_ = 0;
 };
 
+/// One value in page-locked host memory, which the device reads and writes without anybody waiting.
+template <class T>
+class PinnedValue {
+ public:
+  PinnedValue() = default;
+  PinnedValue(const PinnedValue &) = delete;
+  PinnedValue &operator=(const PinnedValue &) = delete;
+  ~PinnedValue() { cudaFreeHost(data_); }
+  PetscErrorCode Allocate() {
+    PetscFunctionBeginUser;
+    CdemCuda(cudaMallocHost(&data_, sizeof(T)));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  T *get() const { return data_; }
+
+ private:
+  T *data_ = nullptr;
+};
+
 }  // namespace cdem

@@ -1,6 +1,7 @@
 #include "cuda/device_tables.cuh"
 
 #include <algorithm>
+#include <limits>
 
 namespace cdem {
 
@@ -14,12 +15,19 @@ PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells) {
   PetscCall(joint_param_.Upload(tables.joint_param));
   PetscCall(slots_.Allocate(3 * tables.n_slots));
   for (const ElementTable &t : tables.elements) {
-    Elements e{&t, {}, {}, {}};
+    Elements e;
+    e.host = &t;
     PetscCall(e.node.Upload(t.node));
     PetscCall(e.material.Upload(t.material));
     std::vector<std::uint8_t> counted(t.n);
     for (int i = 0; i < t.n; ++i) counted[i] = t.cell[i] < n_owned_cells;
     PetscCall(e.counted.Upload(counted));
+    if (t.states > 0) {
+      PetscCall(e.state.Allocate(t.n_pad));
+      PetscCall(e.value.Allocate(static_cast<std::size_t>(t.states) * t.n_pad));
+    }
+    if (t.judged)
+      PetscCall(e.broken_time.Upload(std::vector<double>(t.n_pad, std::numeric_limits<double>::quiet_NaN())));
     elements_.push_back(std::move(e));
   }
   for (const SpringTable &t : tables.springs) {
@@ -97,7 +105,7 @@ std::size_t DeviceTables::Bytes() const {
   auto add = [&](const auto &...array) { ((bytes += array.bytes()), ...); };
   add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_,
       load_start_, load_table_, watch_, kind_, value_, load_, partial_, undamped_);
-  for (const Elements &e : elements_) add(e.node, e.material, e.counted);
+  for (const Elements &e : elements_) add(e.node, e.material, e.counted, e.state, e.value, e.broken_time);
   for (const Springs &s : springs_) add(s.a, s.b, s.joint, s.normal, s.area, s.kn, s.ks, s.slip, s.state, s.counted);
   return bytes;
 }
@@ -134,7 +142,10 @@ ElementView DeviceTables::View(const Elements &e, const double *u, const double 
           v,
           beta,
           slots_.get() + 3 * e.host->corner_start,
-          e.counted.get()};
+          e.counted.get(),
+          e.state.get(),
+          e.value.get(),
+          e.broken_time.get()};
 }
 
 SpringView DeviceTables::View(const Springs &s, const double *u, const double *v, double beta) const {
@@ -157,136 +168,18 @@ SpringView DeviceTables::View(const Springs &s, const double *u, const double *v
           s.counted.get()};
 }
 
-void DeviceTables::LaunchStep(const NodeView &nodes, const StepArgs &args, BatchState *batch, int block,
-                              cudaStream_t stream) {
-  BatchState *first = batch;  // the first kernel counts the step
-  const double beta = t_->beta;
-  for (const Elements &e : elements_)
-    VisitElement(e.host->shape, [&](auto form) {
-      BlockLaws::Visit(e.host->law, [&](auto law) {
-        using Form = decltype(form);
-        using Law = decltype(law);
-        const ElementView view = View(e, nodes.u, nodes.v, beta);
-        const int blocks = Blocks(e.host->n, block);
-        if (beta != 0)
-          ElementKernel<Form, Law, true><<<blocks, block, 0, stream>>>(view, first);
-        else
-          ElementKernel<Form, Law, false><<<blocks, block, 0, stream>>>(view, first);
-        first = nullptr;
-      });
-    });
-  for (const Springs &s : springs_)
-    JointLaws::Visit(s.host->law, [&](auto law) {
-      using Law = decltype(law);
-      const SpringView view = View(s, nodes.u, nodes.v, beta);
-      const int blocks = Blocks(s.host->n, kBlock);
-      if (beta != 0)
-        SpringKernel<Law, true><<<blocks, kBlock, 0, stream>>>(view);
-      else
-        SpringKernel<Law, false><<<blocks, kBlock, 0, stream>>>(view);
-    });
-  const int blocks = Blocks(t_->n_owned, kBlock);
-  if (t_->n_owned == 0) return;
-  if (t_->records.n > 0)
-    NodeKernel<true><<<blocks, kBlock, 0, stream>>>(nodes, args, Lists(), batch);
-  else
-    NodeKernel<false><<<blocks, kBlock, 0, stream>>>(nodes, args, Lists(), batch);
-}
-
-PetscErrorCode DeviceTables::AddPartial(int blocks, int columns, double *sums, int maxima) const {
+PetscErrorCode DeviceTables::DownloadHistories(Histories *histories) const {
   PetscFunctionBeginUser;
-  std::vector<double> rows(static_cast<std::size_t>(blocks) * columns);
-  CdemCuda(cudaGetLastError());
-  CdemCuda(cudaMemcpy(rows.data(), partial_.get(), rows.size() * sizeof(double), cudaMemcpyDeviceToHost));
-  for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < columns; ++k) {
-      const double value = rows[static_cast<std::size_t>(b) * columns + k];
-      sums[k] = k < columns - maxima ? sums[k] + value : std::max(sums[k], value);
-    }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args, cudaStream_t stream,
-                                     Observed *observed) {
-  PetscFunctionBeginUser;
-  if (partial_.size() == 0) {
-    int most = Blocks(t_->n_owned, kBlock) * kNodeSums;
-    for (const Elements &e : elements_) most = std::max(most, Blocks(e.host->n, kBlock) * kElementSums);
-    for (const Springs &s : springs_) most = std::max(most, Blocks(s.host->n, kBlock) * kSpringSums);
-    PetscCall(partial_.Allocate(most));
-    if (t_->beta != 0) PetscCall(undamped_.Allocate(3 * static_cast<std::size_t>(t_->n_owned)));
-    CdemCuda(cudaDeviceSynchronize());  // the zeroing runs on another stream than the kernels below
+  histories->elements.resize(elements_.size());
+  for (std::size_t g = 0; g < elements_.size(); ++g) {
+    PetscCall(elements_[g].state.Download(&histories->elements[g].state));
+    PetscCall(elements_[g].value.Download(&histories->elements[g].value));
+    PetscCall(elements_[g].broken_time.Download(&histories->elements[g].broken_time));
   }
-  double element[kElementSums] = {}, spring[kSpringSums] = {}, node[kNodeSums] = {};
-  const int node_blocks = Blocks(t_->n_owned, kBlock);
-  for (const Elements &e : elements_) {
-    const int blocks = Blocks(e.host->n, kBlock);
-    VisitElement(e.host->shape, [&](auto form) {
-      BlockLaws::Visit(e.host->law, [&](auto law) {
-        ElementObserveKernel<decltype(form), decltype(law)>
-            <<<blocks, kBlock, 0, stream>>>(View(e, nodes.u, nodes.v, 0), partial_.get());
-      });
-    });
-    CdemCuda(cudaStreamSynchronize(stream));
-    PetscCall(AddPartial(blocks, kElementSums, element, 0));
-  }
-  for (const Springs &s : springs_) {
-    const int blocks = Blocks(s.host->n, kBlock);
-    JointLaws::Visit(s.host->law, [&](auto law) {
-      SpringObserveKernel<decltype(law), false>
-          <<<blocks, kBlock, 0, stream>>>(View(s, nodes.u, nodes.v, 0), partial_.get());
-    });
-    CdemCuda(cudaStreamSynchronize(stream));
-    PetscCall(AddPartial(blocks, kSpringSums, spring, 0));
-  }
-  if (t_->beta != 0 && t_->n_owned > 0) {
-    // the kick of the coming step includes the damping forces: a second evaluation, its other sums dropped
-    SumKernel<<<node_blocks, kBlock, 0, stream>>>(t_->n_owned, Lists(), undamped_.get());
-    for (const Elements &e : elements_)
-      VisitElement(e.host->shape, [&](auto form) {
-        BlockLaws::Visit(e.host->law, [&](auto law) {
-          ElementKernel<decltype(form), decltype(law), true>
-              <<<Blocks(e.host->n, kBlock), kBlock, 0, stream>>>(View(e, nodes.u, nodes.v, t_->beta), nullptr);
-        });
-      });
-    for (const Springs &s : springs_)
-      JointLaws::Visit(s.host->law, [&](auto law) {
-        SpringObserveKernel<decltype(law), true>
-            <<<Blocks(s.host->n, kBlock), kBlock, 0, stream>>>(View(s, nodes.u, nodes.v, t_->beta), partial_.get());
-      });
-  }
-  if (t_->n_owned > 0) {
-    const double *f = t_->beta != 0 ? undamped_.get() : nullptr;
-    if (t_->records.n > 0)
-      NodeObserveKernel<true><<<node_blocks, kBlock, 0, stream>>>(nodes, args, Lists(), mass_.get(), f, partial_.get());
-    else
-      NodeObserveKernel<false>
-          <<<node_blocks, kBlock, 0, stream>>>(nodes, args, Lists(), mass_.get(), f, partial_.get());
-    CdemCuda(cudaStreamSynchronize(stream));
-    PetscCall(AddPartial(node_blocks, kNodeSums, node, 2));
-  }
-  *observed = Observed{node[0],
-                       element[0],
-                       spring[0],
-                       node[1],
-                       {node[2], node[3], node[4]},
-                       node[5],
-                       node[6],
-                       element[1] + spring[1],
-                       element[2] + spring[2],
-                       spring[3],
-                       spring[4],
-                       node[7],
-                       node[8]};
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode DeviceTables::DownloadHistories(std::vector<SpringHistory> *histories) const {
-  PetscFunctionBeginUser;
-  histories->resize(springs_.size());
+  histories->springs.resize(springs_.size());
   for (std::size_t g = 0; g < springs_.size(); ++g) {
-    PetscCall(springs_[g].state.Download(&(*histories)[g].state));
-    PetscCall(springs_[g].slip.Download(&(*histories)[g].slip));
+    PetscCall(springs_[g].state.Download(&histories->springs[g].state));
+    PetscCall(springs_[g].slip.Download(&histories->springs[g].slip));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

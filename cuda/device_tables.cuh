@@ -8,6 +8,14 @@
 
 namespace cdem {
 
+/// How the kernels of a step are launched.
+struct LaunchArgs {
+  int block = 32;        ///< threads of the element kernels
+  bool overlap = false;  ///< a kernel may begin while the one before it ends
+  bool timed = false;    ///< every phase in its log event, waited for
+  cudaStream_t stream = nullptr;
+};
+
 /// Device copies of Tables, and the state of the springs.
 class DeviceTables {
  public:
@@ -17,16 +25,17 @@ class DeviceTables {
   /// Pointers of the nodes; schedule and history are the caller's device buffers.
   NodeView Nodes(double *u, double *v, const double *schedule, double *history) const;
   /// Launches one step's kernels. [in] batch: device.
-  void LaunchStep(const NodeView &nodes, const StepArgs &args, BatchState *batch, int block, cudaStream_t stream);
+  PetscErrorCode LaunchStep(const NodeView &nodes, const StepArgs &args, BatchState *batch, const LaunchArgs &launch);
   /// Sums over what this rank counts; waits for them.
   PetscErrorCode Observe(const NodeView &nodes, const StepArgs &args, cudaStream_t stream, Observed *observed);
-  PetscErrorCode DownloadHistories(std::vector<SpringHistory> *histories) const;
+  PetscErrorCode DownloadHistories(Histories *histories) const;
 
  private:
   struct Elements {
     const ElementTable *host;
     DeviceArray<int> node, material;
-    DeviceArray<std::uint8_t> counted;
+    DeviceArray<std::uint8_t> counted, state;
+    DeviceArray<double> value, broken_time;
   };
   struct Springs {
     const SpringTable *host;
@@ -35,6 +44,8 @@ class DeviceTables {
     DeviceArray<std::uint8_t> state, counted;
   };
   PetscErrorCode BuildSlotLists();
+  PetscErrorCode LaunchElements(const NodeView &nodes, BatchState *batch, const LaunchArgs &launch);
+  PetscErrorCode LaunchSprings(const NodeView &nodes, const LaunchArgs &launch);
   ElementView View(const Elements &e, const double *u, const double *v, double beta) const;
   SpringView View(const Springs &s, const double *u, const double *v, double beta) const;
   SlotLists Lists() const { return {list_start_.get(), list_entry_.get(), slots_.get()}; }

@@ -9,13 +9,25 @@ namespace cdem {
 
 inline constexpr int kBlock = 128;       ///< threads of spring and node kernels, and of all observing ones
 inline constexpr int kNoSlot = INT_MAX;  ///< padding of the slot lists
-inline constexpr int kElementSums = 3, kSpringSums = 5, kNodeSums = 9;  ///< columns of partial sums
+inline constexpr int kElementSums = 4, kSpringSums = 5, kNodeSums = 9;  ///< columns of partial sums
 
-/// What the kernels of a batch share: the step within the batch and the first failure (step << 32 | node).
+/// What the kernels of a batch share. The first element kernel of a step sets step from next, the node kernel sets next
+/// from step: no kernel reads what it writes.
 struct BatchState {
-  int step;
-  unsigned long long failure;
+  int next, step;              ///< within the batch: for element kernels; for node kernels
+  unsigned long long failure;  ///< the first one: step << 32 | node
+  double base, dt;             ///< of the time of a step, see StepEnd
+  long long offset;
 };
+
+/// Waits for the kernel before, where this one was allowed to begin early; until then only constant data may be touched.
+/// Then lets the next one begin early too.
+__device__ __forceinline__ void WaitForPrevious() {
+#if __CUDA_ARCH__ >= 900
+  cudaGridDependencySynchronize();
+  cudaTriggerProgrammaticLaunchCompletion();
+#endif
+}
 
 /// Sums of each block's threads, one row of partial [blocks][n].
 template <int n>

@@ -13,18 +13,33 @@ struct SlotLists {
   const double *slot;
 };
 
-/// Internal force of node i: its slots, in order.
-__device__ __forceinline__ void SumSlots(const SlotLists &lists, int i, double f[3]) {
-  const int slice = i >> 5, end = lists.start[slice + 1];
-  f[0] = f[1] = f[2] = 0;
-  for (int at = lists.start[slice] + (i & 31); at < end; at += 32) {
-    const int entry = lists.entry[at];
-    if (entry == kNoSlot) continue;
-    const double *s = lists.slot + 3ll * (entry < 0 ? ~entry : entry);
-    const double sign = entry < 0 ? -1.0 : 1.0;
+/// The head of a node's list, read early: it is constant, while the slots are not.
+struct SlotHead {
+  static constexpr int kSize = 8;  // a hexahedral mesh has no longer lists, but for springs
+  int at, end, entry[kSize];
+
+  __device__ __forceinline__ SlotHead(const SlotLists &lists, int i) {
+    at = lists.start[i >> 5] + (i & 31);
+    end = lists.start[(i >> 5) + 1];
 #pragma unroll
-    for (int k = 0; k < 3; ++k) f[k] += sign * s[k];
+    for (int k = 0; k < kSize; ++k) entry[k] = at + 32 * k < end ? lists.entry[at + 32 * k] : kNoSlot;
   }
+};
+
+__device__ __forceinline__ void AddSlot(const SlotLists &lists, int entry, double f[3]) {
+  if (entry == kNoSlot) return;
+  const double *s = lists.slot + 3ll * (entry < 0 ? ~entry : entry);
+  const double sign = entry < 0 ? -1.0 : 1.0;
+#pragma unroll
+  for (int k = 0; k < 3; ++k) f[k] += sign * s[k];
+}
+
+/// Internal force of a node: its slots, in order.
+__device__ __forceinline__ void SumSlots(const SlotLists &lists, const SlotHead &head, double f[3]) {
+  f[0] = f[1] = f[2] = 0;
+#pragma unroll
+  for (int k = 0; k < SlotHead::kSize; ++k) AddSlot(lists, head.entry[k], f);
+  for (int at = head.at + 32 * SlotHead::kSize; at < head.end; at += 32) AddSlot(lists, lists.entry[at], f);
 }
 
 template <bool kRecords>
@@ -32,8 +47,11 @@ __global__ void __launch_bounds__(kBlock) NodeKernel(NodeView n, StepArgs args, 
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i >= n.n_owned) return;
   double f[3];
-  SumSlots(lists, i, f);
+  const SlotHead head(lists, i);
+  WaitForPrevious();
+  SumSlots(lists, head, f);
   const int step = batch->step;
+  if (i == 0) batch->next = step + 1;
   if (!NodeStep<kRecords>(n, args, i, step, f))
     atomicMin(&batch->failure, static_cast<unsigned long long>(step) << 32 | static_cast<unsigned>(i));
 }
@@ -41,7 +59,7 @@ __global__ void __launch_bounds__(kBlock) NodeKernel(NodeView n, StepArgs args, 
 /// Keeps the sums of the slots of an undamped evaluation.
 __global__ inline void __launch_bounds__(kBlock) SumKernel(int n_owned, SlotLists lists, double *f) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
-  if (i < n_owned) SumSlots(lists, i, f + 3ll * i);
+  if (i < n_owned) SumSlots(lists, SlotHead(lists, i), f + 3ll * i);
 }
 
 /// [in] f: undamped internal forces, or NULL when there is no damping: then the slots hold them.
@@ -52,7 +70,7 @@ __global__ void __launch_bounds__(kBlock) NodeObserveKernel(NodeView n, StepArgs
   double value[kNodeSums] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
   if (i < n.n_owned) {
     double damped[3], v_now[3];
-    SumSlots(lists, i, damped);
+    SumSlots(lists, SlotHead(lists, i), damped);
     const double *f_int = f ? f + 3ll * i : damped;
     const NodeSums s = ObserveNode<kRecords>(n, args, i, mass[i], f_int, damped, v_now);
     value[0] = s.kinetic;

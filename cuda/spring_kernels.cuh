@@ -24,6 +24,7 @@ __device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i,
   Spring<double> s;
   double param[kMaxParams];
   const long long a = 3ll * t.a[i], b = 3ll * t.b[i];
+  WaitForPrevious();
   std::uint8_t state = 0;
 #pragma unroll
   for (int k = 0; k < 3; ++k) {

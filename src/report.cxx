@@ -132,7 +132,7 @@ PetscErrorCode Simulation::Finish() {
   PetscFunctionBeginUser;
   if (output_dir_.empty()) {  // with output the last frame has looked
     const double *u, *v;
-    const std::vector<SpringHistory> *history;
+    const Histories *history;
     PetscCall(backend_->Download(&u, &v, &history));
     PetscCall(WatchValidity(u));
   }

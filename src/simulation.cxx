@@ -261,6 +261,8 @@ PetscErrorCode Simulation::Advance(const StepPlan &plan) {
   batch.first = MakeArgs(plan.dt_old, plan.dt);
   batch.rest = MakeArgs(plan.dt, plan.dt);
   batch.n = static_cast<int>(plan.n);
+  batch.base = plan.base;
+  batch.offset = plan.offset;
   std::vector<double> schedule, history, times;
   if (tables_.records.n > 0) {
     schedule.resize(3 * time_tables_.size() * plan.n);

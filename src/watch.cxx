@@ -60,7 +60,7 @@ PetscErrorCode Simulation::WriteFrame(PetscInt step, double time) {
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.frame, nullptr, nullptr, nullptr, nullptr));
   const double *u, *v;
-  const std::vector<SpringHistory> *history;
+  const Histories *history;
   PetscCall(backend_->Download(&u, &v, &history));
   double dt;
   PetscCall(TSCentralGetLastStep(ts_, &dt));

@@ -9,6 +9,14 @@ namespace cdem {
 
 CDEM_HD double Sqrt(double a) { return ::sqrt(a); }
 CDEM_HD bool Any(bool a) { return a; }
+/// T from memory that need not be aligned, and back.
+template <class T>
+CDEM_HD T LoadAs(const double *p);
+template <>
+CDEM_HD double LoadAs<double>(const double *p) {
+  return *p;
+}
+CDEM_HD void StoreAs(double *p, double v) { *p = v; }
 
 #if !defined(__CUDACC__)
 
@@ -31,6 +39,13 @@ CDEM_HD bool Any(LaneMask a) {
   for (int l = 0; l < kLanes; ++l) any |= a[l];
   return any != 0;
 }
+template <>
+CDEM_HD Lanes LoadAs<Lanes>(const double *p) {
+  Lanes r;
+  __builtin_memcpy(&r, p, sizeof r);
+  return r;
+}
+CDEM_HD void StoreAs(double *p, Lanes v) { __builtin_memcpy(p, &v, sizeof v); }
 
 #endif
 

@@ -13,6 +13,8 @@ namespace cdem {
 struct Batch {
   StepArgs first, rest;
   int n = 0;
+  double base = 0;  ///< s; step j ends at base + (offset + j + 1) dt
+  long long offset = 0;
   const double *schedule = nullptr;  ///< host, [n][n_tables][3]; NULL without records
   double *history = nullptr;         ///< host, [n][n_watch][6], filled by Advance; NULL without watched nodes
 };
@@ -29,6 +31,7 @@ struct Observed {
   double force_sum = 0, force_count = 0;        ///< |component| of corner and spring forces before summation [N]
   double broken = 0, springs = 0;
   double v_max2 = 0, u_max2 = 0;  ///< largest |v|^2, |u|^2
+  double broken_elements = 0;
 };
 
 class Backend {
@@ -43,9 +46,8 @@ class Backend {
   virtual PetscErrorCode Advance(const Batch &batch, Failure *failure) = 0;
   /// Energies, momentum and balance at u(n). [in] next: the arguments that the coming step would have.
   virtual PetscErrorCode Observe(const StepArgs &next, const double *schedule, Observed *observed) = 0;
-  /// Host copies of u, v [n_local][3] (ghosts up to date) and of the spring histories; pointers stay valid until the
-  /// next call.
-  virtual PetscErrorCode Download(const double **u, const double **v, const std::vector<SpringHistory> **history) = 0;
+  /// Host copies of u, v [n_local][3] (ghosts up to date) and of the histories; pointers stay valid until the next call.
+  virtual PetscErrorCode Download(const double **u, const double **v, const Histories **history) = 0;
   /// Wall time of the steps by phase [s]: elements, springs, nodes, halo. Empty where the phases run in one graph.
   virtual std::vector<std::pair<std::string, double>> Phases() const { return {}; }
   /// Waits until everything launched has run.
@@ -57,7 +59,7 @@ PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, std::u
 /// At u(n), from host copies: v(n) [n_owned][3], and the element and spring results. Used by every backend for frames,
 /// and by the host one for its observations.
 PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const double *u, const double *v,
-                             const std::vector<SpringHistory> &history, const StepArgs &next, const double *schedule,
+                             const Histories &history, const StepArgs &next, const double *schedule,
                              ElementResults *elements, SpringResults *springs, std::vector<double> *v_now,
                              Observed *observed);
 

@@ -5,6 +5,8 @@
 #include "physics/elements.hpp"
 #include "physics/laws.hpp"
 
+#include <cstdint>
+
 namespace cdem {
 
 /// What an observation wants of an element besides its forces.
@@ -13,26 +15,145 @@ struct ElementSums {
   T energy, volume, stress[6];  ///< J, m^3, Pa m^3
 };
 
-/// Adapter from an element form's Gauss points to a law.
+/// Bits of an element's state byte, in laws with history.
+enum ElementState { kTouched = 1, kBrokenTension = 2, kBrokenShear = 4 };
+
+/// The history of an element (or one lane each of several): its numbers stay in memory, [point][number] with a stride,
+/// and are read and written point by point, and only where there is any.
+template <class T>
+struct ElementHistory {
+  double *value = nullptr;   ///< of the first point and number
+  long long stride = 0;      ///< from one number to the next
+  MaskOf<T> touched;         ///< [in] some number is not zero
+  MaskOf<T> changed;         ///< [out] numbers were written
+  MaskOf<T> tension, shear;  ///< broken, by a law that judges the element's mean stress
+
+  CDEM_HD T Get(int at) const { return LoadAs<T>(value + at * stride); }
+  CDEM_HD void Set(int at, T x) const { StoreAs(value + at * stride, x); }
+};
+
+/// Elastic energy of a stress per volume [J/m^3].
+template <class T>
+CDEM_HD T ElasticEnergy(T lambda, T mu, const T stress[6]) {
+  T trace = stress[kXX] + stress[kYY] + stress[kZZ];
+  return (Contract(stress, stress) - lambda / (3.0 * lambda + 2.0 * mu) * trace * trace) / (4.0 * mu);
+}
+
+/// Adapter from an element form's points to a law.
 template <class Law, bool kObserve, class T>
 struct PointOf {
   const T *param;
   ElementSums<T> *sums;
-  CDEM_HD void operator()(const T strain[6], T volume, T stress[6]) const {
-    Law::Stress(param, strain, stress);
-    if (kObserve) {
-      sums->energy += 0.5 * volume * Contract(stress, strain);
-      sums->volume += volume;
-      CDEM_UNROLL for (int i = 0; i < 6; ++i) sums->stress[i] += volume * stress[i];
+  ElementHistory<T> *history;
+
+  /// [in] g: number of the point; strain with true shears. [out] stress [Pa].
+  CDEM_HD void operator()(int g, const T strain[6], T volume, T stress[6]) const {
+    if constexpr (Law::kState == 0) {
+      (void)g;
+      Law::Stress(param, strain, stress);
+    } else if constexpr (!Law::kAtCorners) {
+      T state[Law::kState];
+      Recall(g, state);
+      Keep(g, state, Law::Stress(param, strain, state, stress));
     }
+    if (kObserve) Add(strain, volume, stress);
+  }
+  /// The same at a corner with the unit normals of its three faces, for forms whose points are corners.
+  CDEM_HD void operator()(int g, const T strain[6], T volume, const T normal[3][3], T stress[6]) const {
+    if constexpr (Law::kAtCorners) {
+      T state[Law::kState];
+      Recall(g, state);
+      Keep(g, state, Law::Stress(param, strain, normal, state, stress));
+      if (kObserve) Add(strain, volume, stress);
+    } else {
+      (void)normal;
+      (*this)(g, strain, volume, stress);
+    }
+  }
+
+ private:
+  CDEM_HD void Recall(int g, T *state) const {
+    CDEM_UNROLL for (int i = 0; i < Law::kState; ++i) state[i] = T{};
+    if (Any(history->touched)) {
+      CDEM_UNROLL for (int i = 0; i < Law::kState; ++i) state[i] = history->Get(g * Law::kState + i);
+    }
+  }
+  /// An observation leaves the history alone.
+  CDEM_HD void Keep(int g, const T *state, MaskOf<T> changed) const {
+    if (Law::kJudgesMean) changed = changed & (history->tension | history->shear);  // its neighbours in the lanes
+    if (kObserve || !Any(changed)) return;
+    CDEM_UNROLL for (int i = 0; i < Law::kState; ++i) {
+      const int at = g * Law::kState + i;
+      history->Set(at, Law::kJudgesMean ? (changed ? state[i] : history->Get(at)) : state[i]);
+    }
+    history->changed = history->changed | changed;
+  }
+  CDEM_HD void Add(const T strain[6], T volume, const T stress[6]) const {
+    if constexpr (Law::kLinear)
+      sums->energy += 0.5 * volume * Contract(stress, strain);
+    else
+      sums->energy += volume * ElasticEnergy(param[0], param[1], stress);
+    sums->volume += volume;
+    CDEM_UNROLL for (int i = 0; i < 6; ++i) sums->stress[i] += volume * stress[i];
   }
 };
 
-/// Internal forces f [N] of one element (or one lane each of several); sums only with kObserve.
+/// Internal forces f [N] of one element (or one lane each of several) by a law without history; sums only with kObserve.
 template <class Form, class Law, bool kObserve, class T>
 CDEM_HD void ElementForce(const T x[][3], const T u[][3], const T *param, T f[][3], ElementSums<T> *sums) {
   if (kObserve) *sums = ElementSums<T>{};
-  Form::Forces(x, u, PointOf<Law, kObserve, T>{param, sums}, f);
+  Form::Forces(x, u, PointOf<Law, kObserve, T>{param, sums, nullptr}, f);
+}
+
+/// Internal forces f [N] of one element by any law. [in] x: corners [m]; u: displacements [m]; beta_rate: beta v [m], used
+/// with kBeta only. Laws that are linear act on u + beta v; outside the others stands the viscous stress D : (beta
+/// strain rate), except in broken elements. [in,out] history: of laws that have one; committed unless kObserve.
+template <class Form, class Law, bool kBeta, bool kObserve, class T>
+CDEM_HD void ElementStep(const T x[][3], T u[][3], const T beta_rate[][3], const T *param, ElementHistory<T> *history,
+                         T f[][3], ElementSums<T> *sums) {
+  constexpr int corners = Form::kCorners;
+  if constexpr (Law::kLinear) {
+    if (kBeta)
+      CDEM_UNROLL for (int a = 0; a < corners; ++a) CDEM_UNROLL for (int k = 0; k < 3; ++k) u[a][k] += beta_rate[a][k];
+    ElementForce<Form, Law, kObserve>(x, u, param, f, sums);
+    return;
+  }
+  if constexpr (Law::kJudgesMean) {
+    // intact elements are elastic; their mean stress decides, and what is broken is computed again by its law
+    ElementSums<T> elastic;
+    ElementForce<Form, Elastic, true>(x, u, param, f, &elastic);
+    T mean[6];
+    CDEM_UNROLL for (int i = 0; i < 6; ++i) mean[i] = elastic.stress[i] / elastic.volume;
+    MaskOf<T> tension, shear;
+    Law::Judge(param, mean, &tension, &shear);
+    const MaskOf<T> before = history->tension | history->shear;
+    history->tension = history->tension | (tension & !before);
+    history->shear = history->shear | (shear & !before & !tension);
+    const MaskOf<T> broken = history->tension | history->shear;
+    if (kObserve) *sums = elastic;
+    if (Any(broken)) {
+      T g[corners][3];
+      ElementSums<T> other;
+      if (kObserve) other = ElementSums<T>{};
+      Form::Forces(x, u, PointOf<Law, kObserve, T>{param, &other, history}, g);
+      CDEM_UNROLL for (int a = 0; a < corners; ++a) CDEM_UNROLL for (int k = 0; k < 3; ++k) f[a][k] =
+          broken ? g[a][k] : f[a][k];
+      if (kObserve) {
+        sums->energy = broken ? other.energy : sums->energy;
+        CDEM_UNROLL for (int i = 0; i < 6; ++i) sums->stress[i] = broken ? other.stress[i] : sums->stress[i];
+      }
+    }
+  } else {
+    if (kObserve) *sums = ElementSums<T>{};
+    Form::Forces(x, u, PointOf<Law, kObserve, T>{param, sums, history}, f);
+  }
+  if (kBeta) {
+    T g[corners][3];
+    ElementForce<Form, Elastic, false, T>(x, beta_rate, param, g, nullptr);
+    const MaskOf<T> failed = Law::kAtCorners ? history->touched | history->changed : history->tension | history->shear;
+    CDEM_UNROLL for (int a = 0; a < corners; ++a) CDEM_UNROLL for (int k = 0; k < 3; ++k) f[a][k] +=
+        failed ? T{} : g[a][k];
+  }
 }
 
 }  // namespace cdem

@@ -31,18 +31,19 @@ static NodeView HostView(const Tables &t, double *u, double *v, const double *sc
 }
 
 PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const double *u, const double *v,
-                             const std::vector<SpringHistory> &history, const StepArgs &next, const double *schedule,
+                             const Histories &history, const StepArgs &next, const double *schedule,
                              ElementResults *elements, SpringResults *springs, std::vector<double> *v_now,
                              Observed *observed) {
   PetscFunctionBeginUser;
   std::vector<double> f(3 * static_cast<std::size_t>(tables.n_local), 0.0), damped;
-  HostElementsObserve(tables, n_owned_cells, u, f.data(), elements);
-  HostSpringsObserve(tables, u, v, 0, history, f.data(), springs);
+  HostElementsObserve(tables, n_owned_cells, u, v, 0, history.elements, f.data(), elements);
+  HostSpringsObserve(tables, u, v, 0, history.springs, f.data(), springs);
   if (tables.beta != 0) {
     damped.assign(f.size(), 0.0);
+    ElementResults unused_elements;
     SpringResults unused;
-    HostElements(tables, u, v, tables.beta, damped.data());
-    HostSpringsObserve(tables, u, v, tables.beta, history, damped.data(), &unused);
+    HostElementsObserve(tables, 0, u, v, tables.beta, history.elements, damped.data(), &unused_elements);
+    HostSpringsObserve(tables, u, v, tables.beta, history.springs, damped.data(), &unused);
   }
   const double *f_damped = damped.empty() ? f.data() : damped.data();
   const NodeView view = HostView(tables, const_cast<double *>(u), const_cast<double *>(v), schedule, nullptr);
@@ -68,6 +69,7 @@ PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const doub
   sum.force_count = elements->force_count + springs->force_count;
   sum.broken = springs->broken;
   sum.springs = springs->count;
+  sum.broken_elements = elements->broken;
   if (observed) *observed = sum;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -78,7 +80,7 @@ class HostBackend final : public Backend {
  public:
   HostBackend(const Tables &tables, int n_owned_cells)
       : t_(tables), n_owned_cells_(n_owned_cells), u_(3 * static_cast<std::size_t>(tables.n_local), 0.0), v_(u_),
-        f_(u_), history_(StartHistories(tables)) {}
+        f_(u_), history_{StartElements(tables), StartSprings(tables)} {}
 
   std::string Name() const override {
     const char *set = kLanes == 8 ? "AVX-512" : kLanes == 4 ? "AVX" : "SSE2";
@@ -88,7 +90,9 @@ class HostBackend final : public Backend {
     std::size_t bytes = 8 * (3 * u_.size() + t_.x.size() + 2 * t_.mass.size());
     for (const ElementTable &e : t_.elements) bytes += 4 * (e.node.size() + e.material.size());
     for (const SpringTable &s : t_.springs) bytes += static_cast<std::size_t>(s.n_pad) * (4 * 3 + 8 * 6);
-    for (const SpringHistory &h : history_) bytes += h.state.size() + 8 * h.slip.size();
+    for (const SpringHistory &h : history_.springs) bytes += h.state.size() + 8 * h.slip.size();
+    for (const ElementHistories &h : history_.elements)
+      bytes += h.state.size() + 8 * (h.value.size() + h.broken_time.size());
     return bytes;
   }
 
@@ -114,12 +118,13 @@ class HostBackend final : public Backend {
       PetscCall(Timed(events.halo, &halo_, [&] { return Halo(); }));
       PetscCall(Timed(events.elements, &elements_, [&] {
         std::fill(f_.begin(), f_.end(), 0.0);
-        HostElements(t_, u_.data(), v_.data(), t_.beta, f_.data());
+        const double time = StepEnd(batch.base, batch.offset, step, batch.rest.dt);
+        HostElements(t_, u_.data(), v_.data(), t_.beta, time, history_.elements, f_.data());
         return PETSC_SUCCESS;
       }));
       if (!t_.springs.empty())
         PetscCall(Timed(events.springs, &springs_, [&] {
-          HostSprings(t_, u_.data(), v_.data(), t_.beta, history_, f_.data());
+          HostSprings(t_, u_.data(), v_.data(), t_.beta, history_.springs, f_.data());
           return PETSC_SUCCESS;
         }));
       PetscCall(Timed(events.nodes, &nodes_, [&] {
@@ -147,7 +152,7 @@ class HostBackend final : public Backend {
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
-  PetscErrorCode Download(const double **u, const double **v, const std::vector<SpringHistory> **history) override {
+  PetscErrorCode Download(const double **u, const double **v, const Histories **history) override {
     PetscFunctionBeginUser;
     PetscCall(Halo());
     *u = u_.data();
@@ -198,7 +203,7 @@ class HostBackend final : public Backend {
   const Tables &t_;
   int n_owned_cells_;
   std::vector<double> u_, v_, f_;
-  std::vector<SpringHistory> history_;
+  Histories history_;
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;
   double elements_ = 0, springs_ = 0, nodes_ = 0, halo_ = 0;  // wall [s]

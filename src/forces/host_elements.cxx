@@ -3,79 +3,137 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cdem {
 
 namespace {
 
+/// What a pass over the elements is given.
+struct ElementPass {
+  const Tables &tables;
+  const double *u, *v;
+  double beta, time;  ///< s; at the end of the step
+  double *f;
+  int n_owned_cells;
+  ElementResults *results;  ///< of observing passes
+};
+
+/// Lanes of history of the elements from e on.
+ElementHistory<Lanes> Recall(const ElementTable &t, ElementHistories *h, int e) {
+  ElementHistory<Lanes> history;
+  history.value = &h->value[e];
+  history.stride = t.n_pad;
+  history.changed = LaneMask{};
+  for (int l = 0; l < kLanes; ++l) {
+    history.touched[l] = h->state[e + l] & kTouched ? -1 : 0;
+    history.tension[l] = h->state[e + l] & kBrokenTension ? -1 : 0;
+    history.shear[l] = h->state[e + l] & kBrokenShear ? -1 : 0;
+  }
+  return history;
+}
+
+void Commit(const ElementHistory<Lanes> &history, double time, int e, ElementHistories *h) {
+  for (int l = 0; l < kLanes; ++l) {
+    const bool broken = history.tension[l] || history.shear[l];
+    if (broken && std::isnan(h->broken_time[e + l])) h->broken_time[e + l] = time;
+    h->state[e + l] =
+        static_cast<std::uint8_t>((history.touched[l] || history.changed[l] ? kTouched : 0) |
+                                  (history.tension[l] ? kBrokenTension : 0) | (history.shear[l] ? kBrokenShear : 0));
+  }
+}
+
 template <class Form, class Law, bool kBeta, bool kObserve>
-void ElementLoop(const Tables &tables, const ElementTable &t, const double *u, const double *v, double beta, double *f,
-                 int n_owned_cells, ElementResults *results) {
+void ElementLoop(const ElementPass &pass, const ElementTable &t, ElementHistories *h) {
   constexpr int corners = Form::kCorners;
   const std::size_t stride = t.n_pad;
   for (int e = 0; e < t.n; e += kLanes) {
-    Lanes x[corners][3], w[corners][3], force[corners][3], param[kMaxParams];
+    Lanes x[corners][3], w[corners][3], rate[corners][3], force[corners][3], param[kMaxParams];
     for (int a = 0; a < corners; ++a) {
       const int *node = &t.node[a * stride + e];
-      Gather(tables.x.data(), node, x[a]);
-      Gather(u, node, w[a]);
+      Gather(pass.tables.x.data(), node, x[a]);
+      Gather(pass.u, node, w[a]);
       if (kBeta) {
-        Lanes rate[3];
-        Gather(v, node, rate);
-        for (int k = 0; k < 3; ++k) w[a][k] += beta * rate[k];
+        Gather(pass.v, node, rate[a]);
+        for (int k = 0; k < 3; ++k) rate[a][k] = pass.beta * rate[a][k];
       }
     }
-    LoadParams(tables.block_param, &t.material[e], Law::kParams, param);
+    LoadParams(pass.tables.block_param, &t.material[e], Law::kParams, param);
     ElementSums<Lanes> sums;
-    ElementForce<Form, Law, kObserve>(x, w, param, force, &sums);
+    ElementHistory<Lanes> history;
+    if constexpr (Law::kState > 0) history = Recall(t, h, e);
+    ElementStep<Form, Law, kBeta, kObserve>(x, w, rate, param, &history, force, &sums);
+    if constexpr (Law::kState > 0 && !kObserve)
+      if (Any(history.changed | history.tension | history.shear)) Commit(history, pass.time, e, h);
 
     alignas(sizeof(Lanes)) double out[corners][3][kLanes];
     for (int a = 0; a < corners; ++a)
-      for (int k = 0; k < 3; ++k) Store(out[a][k], force[a][k]);
+      for (int k = 0; k < 3; ++k) StoreAs(out[a][k], force[a][k]);
     const int live = std::min(kLanes, t.n - e);
     for (int l = 0; l < live; ++l) {
       CDEM_UNROLL for (int a = 0; a < corners; ++a) {
-        double *to = f + 3 * static_cast<std::ptrdiff_t>(t.node[a * stride + e + l]);
+        double *to = pass.f + 3 * static_cast<std::ptrdiff_t>(t.node[a * stride + e + l]);
         to[0] += out[a][0][l];
         to[1] += out[a][1][l];
         to[2] += out[a][2][l];
       }
       if (!kObserve) continue;
       const int cell = t.cell[e + l];
-      if (cell >= n_owned_cells) continue;
-      results->energy += sums.energy[l];
-      results->force_count += 3 * corners;
+      if (cell >= pass.n_owned_cells) continue;
+      ElementResults &results = *pass.results;
+      results.energy += sums.energy[l];
+      results.force_count += 3 * corners;
       for (int a = 0; a < corners; ++a)
-        for (int k = 0; k < 3; ++k) results->force_sum += std::fabs(out[a][k][l]);
-      if (results->stress)
+        for (int k = 0; k < 3; ++k) results.force_sum += std::fabs(out[a][k][l]);
+      if (results.stress)
         for (int i = 0; i < 6; ++i)
-          results->stress[6 * static_cast<std::ptrdiff_t>(cell) + i] = sums.stress[i][l] / sums.volume[l];
+          results.stress[6 * static_cast<std::ptrdiff_t>(cell) + i] = sums.stress[i][l] / sums.volume[l];
+      if constexpr (Law::kJudgesMean) results.broken += history.tension[l] || history.shear[l];
     }
   }
 }
 
 template <bool kBeta, bool kObserve>
-void Elements(const Tables &tables, const double *u, const double *v, double beta, double *f, int n_owned_cells,
-              ElementResults *results) {
-  for (const ElementTable &t : tables.elements)
-    VisitElement(t.shape, [&](auto form) {
-      BlockLaws::Visit(t.law, [&](auto law) {
-        ElementLoop<decltype(form), decltype(law), kBeta, kObserve>(tables, t, u, v, beta, f, n_owned_cells, results);
-      });
+void Elements(const ElementPass &pass, std::vector<ElementHistories> &history) {
+  for (std::size_t g = 0; g < pass.tables.elements.size(); ++g) {
+    const ElementTable &t = pass.tables.elements[g];
+    VisitBlock(t.shape, t.form, t.law, [&](auto form, auto law) {
+      ElementLoop<decltype(form), decltype(law), kBeta, kObserve>(pass, t, &history[g]);
     });
+  }
 }
 
 }  // namespace
 
-void HostElements(const Tables &tables, const double *u, const double *v, double beta, double *f) {
+void HostElements(const Tables &tables, const double *u, const double *v, double beta, double time,
+                  std::vector<ElementHistories> &history, double *f) {
+  const ElementPass pass{tables, u, v, beta, time, f, 0, nullptr};
   if (beta != 0)
-    Elements<true, false>(tables, u, v, beta, f, 0, nullptr);
+    Elements<true, false>(pass, history);
   else
-    Elements<false, false>(tables, u, v, beta, f, 0, nullptr);
+    Elements<false, false>(pass, history);
 }
 
-void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, double *f, ElementResults *results) {
-  Elements<false, true>(tables, u, nullptr, 0, f, n_owned_cells, results);
+void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, const double *v, double beta,
+                         const std::vector<ElementHistories> &history, double *f, ElementResults *results) {
+  auto &unchanged = const_cast<std::vector<ElementHistories> &>(history);  // an observing pass only reads
+  const ElementPass pass{tables, u, v, beta, 0, f, n_owned_cells, results};
+  if (beta != 0)
+    Elements<true, true>(pass, unchanged);
+  else
+    Elements<false, true>(pass, unchanged);
+}
+
+std::vector<ElementHistories> StartElements(const Tables &tables) {
+  std::vector<ElementHistories> history(tables.elements.size());
+  for (std::size_t g = 0; g < history.size(); ++g) {
+    const ElementTable &t = tables.elements[g];
+    if (t.states == 0) continue;
+    history[g].state.assign(t.n_pad, 0);
+    history[g].value.assign(static_cast<std::size_t>(t.states) * t.n_pad, 0.0);
+    if (t.judged) history[g].broken_time.assign(t.n_pad, std::numeric_limits<double>::quiet_NaN());
+  }
+  return history;
 }
 
 }  // namespace cdem

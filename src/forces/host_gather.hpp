@@ -19,13 +19,6 @@ CDEM_HD void LoadParams(const std::vector<double> &table, const int *row, int co
   }
 }
 
-CDEM_HD Lanes Load(const double *p) {
-  Lanes r;
-  __builtin_memcpy(&r, p, sizeof r);
-  return r;
-}
-CDEM_HD void Store(double *p, Lanes v) { __builtin_memcpy(p, &v, sizeof v); }
-
 /// Three components of kLanes nodes from an [n][3] array.
 CDEM_HD void Gather(const double *from, const int *node, Lanes out[3]) {
   alignas(sizeof(Lanes)) double buffer[3][kLanes];
@@ -35,7 +28,7 @@ CDEM_HD void Gather(const double *from, const int *node, Lanes out[3]) {
     buffer[1][l] = p[1];
     buffer[2][l] = p[2];
   }
-  for (int k = 0; k < 3; ++k) out[k] = Load(buffer[k]);
+  for (int k = 0; k < 3; ++k) out[k] = LoadAs<Lanes>(buffer[k]);
 }
 
 }  // namespace cdem

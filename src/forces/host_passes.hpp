@@ -11,9 +11,23 @@ struct SpringHistory {
   std::vector<double> slip;
 };
 
+/// What elements of laws with history remember, per element table.
+struct ElementHistories {
+  std::vector<std::uint8_t> state;  ///< [n_pad] ElementState bits
+  std::vector<double> value;        ///< [point][number][n_pad], as ElementHistory reads it
+  std::vector<double> broken_time;  ///< [n_pad] s; NaN while intact; empty unless the law breaks elements
+};
+
+/// All history of a body: its state beside u and v.
+struct Histories {
+  std::vector<ElementHistories> elements;
+  std::vector<SpringHistory> springs;
+};
+
 /// Per-element results of an observing pass, optional (NULL: not wanted).
 struct ElementResults {
   double *stress = nullptr;  ///< [n local cells][6], mean over the element [Pa]
+  double broken = 0;         ///< elements broken, of those this rank owns
   double energy = 0;         ///< J, of the elements this rank owns
   double force_sum = 0;      ///< sum of |component| of corner forces [N]
   double force_count = 0;
@@ -28,10 +42,12 @@ struct SpringResults {
   double broken = 0, count = 0;  ///< springs this rank counts
 };
 
-/// Adds internal forces of all elements to f [n_local][3]. kObserve fills results. With beta != 0 the force is that of
-/// u + beta v.
-void HostElements(const Tables &tables, const double *u, const double *v, double beta, double *f);
-void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, double *f, ElementResults *results);
+/// Adds internal forces of all elements to f [n_local][3], with beta != 0 those of damping too; histories are committed, and what breaks does so at the given time [s].
+void HostElements(const Tables &tables, const double *u, const double *v, double beta, double time,
+                  std::vector<ElementHistories> &history, double *f);
+/// The same without committing anything.
+void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, const double *v, double beta,
+                         const std::vector<ElementHistories> &history, double *f, ElementResults *results);
 
 /// Adds the forces of all springs to f and commits state and slip.
 void HostSprings(const Tables &tables, const double *u, const double *v, double beta,
@@ -40,7 +56,8 @@ void HostSprings(const Tables &tables, const double *u, const double *v, double 
 void HostSpringsObserve(const Tables &tables, const double *u, const double *v, double beta,
                         const std::vector<SpringHistory> &history, double *f, SpringResults *results);
 
-/// Starting histories of all spring tables.
-std::vector<SpringHistory> StartHistories(const Tables &tables);
+/// Starting histories of all tables.
+std::vector<SpringHistory> StartSprings(const Tables &tables);
+std::vector<ElementHistories> StartElements(const Tables &tables);
 
 }  // namespace cdem

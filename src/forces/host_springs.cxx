@@ -23,12 +23,12 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
       Gather(v, &t.a[i], at);
       for (int k = 0; k < 3; ++k) s.beta_rate[k] = beta * (s.beta_rate[k] - at[k]);
     }
-    for (int k = 0; k < 3; ++k) s.normal[k] = Load(&t.normal[k * stride + i]);
-    s.kn = Load(&t.kn[i]);
-    s.ks = Load(&t.ks[i]);
+    for (int k = 0; k < 3; ++k) s.normal[k] = LoadAs<Lanes>(&t.normal[k * stride + i]);
+    s.kn = LoadAs<Lanes>(&t.kn[i]);
+    s.ks = LoadAs<Lanes>(&t.ks[i]);
     LaneMask opens{}, slides{};
     if constexpr (Law::kHistory) {
-      s.area = Load(&t.area[i]);
+      s.area = LoadAs<Lanes>(&t.area[i]);
       LoadParams(tables.joint_param, &t.joint[i], Law::kParams, param);
       s.param = param;
       double tension_lost[kLanes], cohesion_lost[kLanes];
@@ -36,9 +36,9 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
         tension_lost[l] = history->state[i + l] & kTensionLost ? 1 : 0;
         cohesion_lost[l] = history->state[i + l] & kCohesionLost ? 1 : 0;
       }
-      s.tension_lost = Load(tension_lost);
-      s.cohesion_lost = Load(cohesion_lost);
-      for (int k = 0; k < 3; ++k) s.slip[k] = Load(&history->slip[k * stride + i]);
+      s.tension_lost = LoadAs<Lanes>(tension_lost);
+      s.cohesion_lost = LoadAs<Lanes>(cohesion_lost);
+      for (int k = 0; k < 3; ++k) s.slip[k] = LoadAs<Lanes>(&history->slip[k * stride + i]);
     }
     SpringForce<Law, kBeta>(s, force, &opens, &slides);
 
@@ -49,11 +49,11 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
       if (kCommit) {
         std::copy_n(next, kLanes, &history->state[i]);
         if (Any(opens | slides))
-          for (int k = 0; k < 3; ++k) Store(&history->slip[k * stride + i], s.slip[k]);
+          for (int k = 0; k < 3; ++k) StoreAs(&history->slip[k * stride + i], s.slip[k]);
       }
     }
     alignas(sizeof(Lanes)) double out[3][kLanes];
-    for (int k = 0; k < 3; ++k) Store(out[k], force[k]);
+    for (int k = 0; k < 3; ++k) StoreAs(out[k], force[k]);
     const int live = std::min(kLanes, t.n - i);
     for (int l = 0; l < live; ++l) {
       double *to_a = f + 3 * static_cast<std::ptrdiff_t>(t.a[i + l]),
@@ -112,7 +112,7 @@ void HostSpringsObserve(const Tables &tables, const double *u, const double *v, 
     Springs<false, false>(tables, u, v, beta, unchanged, f, results);
 }
 
-std::vector<SpringHistory> StartHistories(const Tables &tables) {
+std::vector<SpringHistory> StartSprings(const Tables &tables) {
   std::vector<SpringHistory> history(tables.springs.size());
   for (std::size_t g = 0; g < history.size(); ++g) {
     const SpringTable &t = tables.springs[g];

@@ -21,6 +21,11 @@ struct StepArgs {
   }
 };
 
+/// Time at the end of step j of a batch [s]; the same number however the run is cut into batches.
+CDEM_HD double StepEnd(double base, long long offset, int j, double dt) {
+  return base + static_cast<double>(offset + j + 1) * dt;
+}
+
 /// Node data as pointers, host or device.
 struct NodeView {
   int n_owned = 0;

@@ -24,11 +24,12 @@ namespace {
 /// bit, on any rank, and are looked at once. What the rounding can change is covered by kRoundingMargin.
 struct Canonical {
   double x[8][3];
-  int material;
+  double lambda, mu, density;
 };
 constexpr double kRoundingMargin = 1 + 1e-7;
 
-void MakeCanonical(const Tables &tables, const ElementTable &t, int e, Canonical *c) {
+void MakeCanonical(const Tables &tables, const ElementTable &t, const std::vector<Material> &materials, int e,
+                   Canonical *c) {
   double size = 0;
   const double *x0 = &tables.x[3 * static_cast<std::size_t>(t.node[e])];
   for (int a = 0; a < t.corners; ++a)
@@ -40,37 +41,41 @@ void MakeCanonical(const Tables &tables, const ElementTable &t, int e, Canonical
   const double grid = std::ldexp(1.0, std::ilogb(size) - 32);
   for (int a = 0; a < t.corners; ++a)
     for (int k = 0; k < 3; ++k) c->x[a][k] = std::nearbyint(c->x[a][k] / grid) * grid + 0.0;
-  c->material = t.material[e];
+  const double *param = &tables.block_param[static_cast<std::size_t>(kMaxParams) * t.material[e]];
+  c->lambda = param[0];
+  c->mu = param[1];
+  c->density = materials[t.region[e]].density;
 }
 
 std::uint64_t Hash(const Canonical &c, int corners) {
-  std::uint64_t h = 0x9e3779b97f4a7c15ULL ^ static_cast<std::uint64_t>(c.material);
+  std::uint64_t h = 0x9e3779b97f4a7c15ULL;
+  auto mix = [&](double value) {
+    std::uint64_t bits;
+    __builtin_memcpy(&bits, &value, sizeof bits);
+    h = (h ^ bits) * 0xff51afd7ed558ccdULL;
+    h ^= h >> 32;
+  };
   for (int a = 0; a < corners; ++a)
-    for (int k = 0; k < 3; ++k) {
-      std::uint64_t bits;
-      __builtin_memcpy(&bits, &c.x[a][k], sizeof bits);
-      h = (h ^ bits) * 0xff51afd7ed558ccdULL;
-      h ^= h >> 32;
-    }
+    for (int k = 0; k < 3; ++k) mix(c.x[a][k]);
+  for (double value : {c.lambda, c.mu, c.density}) mix(value);
   return h;
 }
 
 /// Upper bounds of lambda_max(K_e, M_e) of kLanes elements; returns the largest.
 template <class Form>
-double LanesBound(const Canonical *batch, const std::vector<Material> &materials) {
+double LanesBound(const Canonical *batch) {
   constexpr int corners = Form::kCorners, n = 3 * corners;
   Lanes x[corners][3], param[kMaxParams], scale[corners], u[corners][3] = {}, f[corners][3];
   for (int p = 0; p < kMaxParams; ++p) param[p] = Lanes{};
   for (int l = 0; l < kLanes; ++l) {
     double volume[8];
     CornerVolumes(Form::kShape, batch[l].x, volume);
-    const Material &m = materials[batch[l].material];
     for (int a = 0; a < corners; ++a) {
       for (int k = 0; k < 3; ++k) x[a][k][l] = batch[l].x[a][k];
-      scale[a][l] = 1 / std::sqrt(m.density * volume[a]);
+      scale[a][l] = 1 / std::sqrt(batch[l].density * volume[a]);
     }
-    param[Elastic::kLambda][l] = m.lambda();
-    param[Elastic::kMu][l] = m.mu();
+    param[Elastic::kLambda][l] = batch[l].lambda;
+    param[Elastic::kMu][l] = batch[l].mu;
   }
   static thread_local Lanes a[n][n], b[n][n];
   Lanes trace{};
@@ -109,17 +114,17 @@ double TableBound(const Tables &tables, const ElementTable &t, const std::vector
   int filled = 0;
   double largest = 0;
   for (int e = 0; e < t.n; ++e) {
-    MakeCanonical(tables, t, e, &batch[filled]);
+    MakeCanonical(tables, t, materials, e, &batch[filled]);
     // a mesh without congruent elements soon shows it, and then needs no memory of what was seen
     const bool remember = e < 50000 || seen.size() < 25000;
     if (remember && !seen.insert(Hash(batch[filled], t.corners)).second) continue;
     if (++filled < kLanes) continue;
-    largest = std::max(largest, LanesBound<Form>(batch, materials));
+    largest = std::max(largest, LanesBound<Form>(batch));
     filled = 0;
   }
   if (filled > 0) {
     std::fill(batch + filled, batch + kLanes, batch[filled - 1]);
-    largest = std::max(largest, LanesBound<Form>(batch, materials));
+    largest = std::max(largest, LanesBound<Form>(batch));
   }
   return largest;
 }
@@ -178,7 +183,7 @@ PetscErrorCode ComputeStepBound(const Tables &tables, const std::vector<Material
   PetscCall(PetscLogEventBegin(events.bound, nullptr, nullptr, nullptr, nullptr));
   double w2[2] = {0, SpringBound(tables)};
   for (const ElementTable &t : tables.elements)
-    VisitElement(t.shape,
+    VisitElement(t.shape, t.form,
                  [&](auto form) { w2[0] = std::max(w2[0], TableBound<decltype(form)>(tables, t, materials)); });
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, w2, 2, MPI_DOUBLE, MPI_MAX, tables.comm));
   bound->element_w2 = w2[0];

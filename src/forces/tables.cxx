@@ -3,11 +3,13 @@
 #include "core/error.hpp"
 #include "core/lanes.hpp"
 #include "mesh/geometry.hpp"
-#include "physics/laws.hpp"
+#include "physics/elements.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace cdem {
 
@@ -48,31 +50,74 @@ std::vector<PetscInt> ActiveCells(const Mesh &mesh, const Nodes &nodes) {
   return cells;
 }
 
+int FormNumber(Shape shape, const std::string &name) {
+  int form = -1;
+  VisitForms(shape, [&](auto forms) { form = decltype(forms)::Find(name); });
+  return form;
+}
+
+/// Every region's elements have the form that its material asks for, and law and form fit (collective).
+PetscErrorCode CheckForms(const Mesh &mesh, const std::vector<Material> &materials) {
+  PetscFunctionBeginUser;
+  static const char *const names[kShapes] = {"tetrahedra", "wedges", "hexahedra"};
+  std::vector<int> has(kShapes * materials.size(), 0);
+  for (PetscInt c = 0; c < mesh.n_owned; ++c)
+    has[kShapes * mesh.cell_region[c] + static_cast<int>(mesh.cell_shape[c])] = 1;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, has.data(), static_cast<int>(has.size()), MPI_INT, MPI_MAX, mesh.comm));
+  for (std::size_t r = 0; r < materials.size(); ++r)
+    for (int s = 0; s < kShapes; ++s) {
+      if (!has[kShapes * r + s]) continue;
+      const Shape shape = static_cast<Shape>(s);
+      const Material &m = materials[r];
+      std::string forms, law;
+      VisitForms(shape, [&](auto list) { forms = decltype(list)::Names(); });
+      BlockLaws::Visit(m.law, [&](auto l) { law = decltype(l)::kName; });
+      const int form = FormNumber(shape, m.element);
+      CdemCheck(form >= 0, mesh.comm, "region '%s' has %s, which know no element form '%s'; their forms are: %s",
+                mesh.regions[r].c_str(), names[s], m.element.c_str(), forms.c_str());
+      bool fits = false;
+      VisitBlock(shape, form, m.law, [&](auto, auto) { fits = true; });
+      CdemCheck(fits, mesh.comm, "region '%s': the law %s cannot be computed in %s of form '%s'",
+                mesh.regions[r].c_str(), law.c_str(), names[s], m.element.c_str());
+    }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials, Tables *tables) {
   const std::vector<PetscInt> active = ActiveCells(mesh, nodes);
-  for (int shape = 0; shape < kShapes; ++shape)
-    for (int law = 0; law < BlockLaws::kCount; ++law) {
-      ElementTable t;
-      t.shape = static_cast<Shape>(shape);
-      t.law = law;
-      t.corners = Info(t.shape).corners;
-      for (PetscInt c : active)
-        if (mesh.cell_shape[c] == t.shape && materials[mesh.cell_region[c]].law == law) t.cell.push_back(c);
-      if (t.cell.empty()) continue;
-      t.n = static_cast<int>(t.cell.size());
-      t.n_pad = Padded(t.n);
-      t.node.resize(static_cast<std::size_t>(t.corners) * t.n_pad);
-      t.material.resize(t.n_pad);
-      for (int e = 0; e < t.n_pad; ++e) {
-        const int c = t.cell[std::min(e, t.n - 1)];
-        t.material[e] = mesh.cell_region[c];
-        for (int a = 0; a < t.corners; ++a)
-          t.node[static_cast<std::size_t>(a) * t.n_pad + e] = static_cast<int>(nodes.Corners(c)[a]);
-      }
-      t.corner_start = tables->n_slots;
-      tables->n_slots += static_cast<std::size_t>(t.corners) * t.n_pad;
-      tables->elements.push_back(std::move(t));
+  // one table for each shape, form and law that this rank has
+  std::map<std::array<int, 3>, std::vector<int>> groups;
+  for (PetscInt c : active) {
+    const Material &m = materials[mesh.cell_region[c]];
+    const Shape shape = mesh.cell_shape[c];
+    groups[{static_cast<int>(shape), FormNumber(shape, m.element), m.law}].push_back(static_cast<int>(c));
+  }
+  for (auto &[key, cells] : groups) {
+    ElementTable t;
+    t.shape = static_cast<Shape>(key[0]);
+    t.form = key[1];
+    t.law = key[2];
+    t.corners = Info(t.shape).corners;
+    t.cell = std::move(cells);
+    VisitBlock(t.shape, t.form, t.law, [&](auto form, auto law) {
+      t.states = decltype(form)::kPoints * decltype(law)::kState;
+      t.judged = decltype(law)::kJudgesMean;
+    });
+    t.n = static_cast<int>(t.cell.size());
+    t.n_pad = Padded(t.n);
+    t.node.resize(static_cast<std::size_t>(t.corners) * t.n_pad);
+    t.material.resize(t.n_pad);
+    t.region.resize(t.n_pad);
+    for (int e = 0; e < t.n_pad; ++e) {
+      const int c = t.cell[std::min(e, t.n - 1)];
+      t.material[e] = t.region[e] = mesh.cell_region[c];
+      for (int a = 0; a < t.corners; ++a)
+        t.node[static_cast<std::size_t>(a) * t.n_pad + e] = static_cast<int>(nodes.Corners(c)[a]);
     }
+    t.corner_start = tables->n_slots;
+    tables->n_slots += static_cast<std::size_t>(t.corners) * t.n_pad;
+    tables->elements.push_back(std::move(t));
+  }
 }
 
 /// Row-sum masses, summed in ascending global number of the cells.
@@ -86,7 +131,7 @@ PetscErrorCode BuildMass(const Mesh &mesh, const Nodes &nodes, const std::vector
       CornerVolumes(t.shape, x, volume);
       for (int a = 0; a < t.corners; ++a) {
         const int node = t.node[static_cast<std::size_t>(a) * t.n_pad + e];
-        if (node < nodes.n_owned) tables->mass[node] += materials[t.material[e]].density * volume[a];
+        if (node < nodes.n_owned) tables->mass[node] += materials[t.region[e]].density * volume[a];
       }
     }
   tables->inverse_mass.resize(nodes.n_owned);
@@ -187,6 +232,7 @@ PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vect
   tables->halo = nodes.halo;
   tables->x.resize(3 * static_cast<std::size_t>(nodes.n_local));
   for (PetscInt i = 0; i < nodes.n_local; ++i) std::copy_n(mesh.X(nodes.vertex[i]), 3, &tables->x[3 * i]);
+  PetscCall(CheckForms(mesh, materials));
   BuildElements(mesh, nodes, materials, tables);
   PetscCall(BuildMass(mesh, nodes, materials, tables));
   BuildSprings(mesh, nodes, face_interface, materials, joints, tables);

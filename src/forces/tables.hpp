@@ -13,11 +13,14 @@ namespace cdem {
 /// that touch an owned node. Rows are padded to n_pad by repeating the last element; a padded row adds nothing.
 struct ElementTable {
   Shape shape = Shape::kHex;
-  int law = 0;
+  int form = 0, law = 0;  ///< numbers in the shape's list of forms and in BlockLaws
   int corners = 0;
+  int states = 0;       ///< doubles of history an element (points times kState); 0: none, and no state byte
+  bool judged = false;  ///< the law breaks elements, and the time of it is kept
   int n = 0, n_pad = 0;
   std::vector<int> node;      ///< [corner][n_pad] local node
   std::vector<int> material;  ///< [n_pad] row of the parameter table
+  std::vector<int> region;    ///< [n_pad] region of the mesh
   std::vector<int> cell;      ///< [n] local cell; below Mesh::n_owned: counted by this rank
   std::size_t corner_start =
       0;  ///< first slot of this table among the corner forces of all tables [slots of 3 doubles]
@@ -65,8 +68,8 @@ struct Tables {
   std::vector<double> inverse_mass;  ///< [n_owned] 1/kg
   std::vector<ElementTable> elements;
   std::vector<SpringTable> springs;
-  std::vector<double> block_param;  ///< [region][kMaxParams]
-  std::vector<double> joint_param;  ///< [interface][kMaxParams]
+  std::vector<double> block_param;  ///< [row][kMaxParams]
+  std::vector<double> joint_param;  ///< [row][kMaxParams]
   NodeRecords records;
   int n_watch = 0;                ///< slots of the history buffer on this rank
   int n_tables = 1;               ///< time tables; table 0 is the constant 1

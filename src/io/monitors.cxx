@@ -52,12 +52,12 @@ PetscErrorCode SumOverRanks(MPI_Comm comm, Observed *o) {
   PetscFunctionBeginUser;
   double sum[] = {o->kinetic,     o->strain,      o->spring,       o->form,           o->momentum[0],
                   o->momentum[1], o->momentum[2], o->residual_sum, o->residual_count, o->force_sum,
-                  o->force_count, o->broken,      o->springs};
+                  o->force_count, o->broken,      o->springs,      o->broken_elements};
   double most[] = {o->v_max2, o->u_max2};
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 13, MPI_DOUBLE, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 14, MPI_DOUBLE, MPI_SUM, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, comm));
-  *o = Observed{sum[0],  sum[1],  sum[2],  sum[3], {sum[4], sum[5], sum[6]}, sum[7], sum[8], sum[9], sum[10],
-                sum[11], sum[12], most[0], most[1]};
+  *o = Observed{sum[0],  sum[1],  sum[2],  sum[3], {sum[4], sum[5], sum[6]}, sum[7], sum[8], sum[9], sum[10], sum[11],
+                sum[12], most[0], most[1], sum[13]};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

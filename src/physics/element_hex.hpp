@@ -8,8 +8,11 @@
 namespace cdem {
 
 struct HexFull {
+  static constexpr const char *kName = "full";
   static constexpr Shape kShape = Shape::kHex;
   static constexpr int kCorners = 8;
+  static constexpr int kPoints = 8;
+  static constexpr bool kAtCorners = false;
   static constexpr double kGauss = 0.57735026918962576451;
 
   // modes: xi, eta, zeta, xi eta, eta zeta, xi zeta, xi eta zeta
@@ -98,7 +101,7 @@ struct HexFull {
       Cross(jx[a], je[b], cc);
       T det = Dot(jx[a], ca);
       StrainOf(ux[a], ue[b], uz[c], ca, cb, cc, 1.0 / det, strain);
-      point(strain, det * (1.0 / 512.0), stress);
+      point(g, strain, det * (1.0 / 512.0), stress);
       ApplyAdd(stress, ca, px[a]);
       ApplyAdd(stress, cb, pe[b]);
       ApplyAdd(stress, cc, pz[c]);

@@ -6,8 +6,11 @@
 namespace cdem {
 
 struct TetFull {
+  static constexpr const char *kName = "full";
   static constexpr Shape kShape = Shape::kTet;
   static constexpr int kCorners = 4;
+  static constexpr int kPoints = 1;
+  static constexpr bool kAtCorners = false;
 
   /// Internal forces f [4][3] [N] of displacements u [4][3] [m] at corners x [4][3] [m]; point as for HexFull.
   template <class T, class Point>
@@ -22,7 +25,7 @@ struct TetFull {
     Cross(a[0], a[1], cc);
     T det = Dot(a[0], ca);
     StrainOf(d[0], d[1], d[2], ca, cb, cc, 1.0 / det, strain);
-    point(strain, det * (1.0 / 6.0), stress);
+    point(0, strain, det * (1.0 / 6.0), stress);
     T p[3][3];
     Apply(stress, ca, p[0]);
     Apply(stress, cb, p[1]);

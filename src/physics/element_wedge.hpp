@@ -6,8 +6,11 @@
 namespace cdem {
 
 struct WedgeFull {
+  static constexpr const char *kName = "full";
   static constexpr Shape kShape = Shape::kWedge;
   static constexpr int kCorners = 6;
+  static constexpr int kPoints = 6;
+  static constexpr bool kAtCorners = false;
   static constexpr double kGauss = 0.57735026918962576451;
 
   /// Internal forces f [6][3] [N] of displacements u [6][3] [m] at corners x [6][3] [m]; point as for HexFull.
@@ -33,7 +36,7 @@ struct WedgeFull {
       Cross(a[0], a[1], cc);
       T det = Dot(a[0], ca);
       StrainOf(d[0], d[1], d[2], ca, cb, cc, 1.0 / det, strain);
-      point(strain, det * (1.0 / 6.0), stress);
+      point(g, strain, det * (1.0 / 6.0), stress);
       T p[3][3];
       Apply(stress, ca, p[0]);
       Apply(stress, cb, p[1]);

@@ -88,6 +88,7 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
                      [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.property); });
     PetscCall(ierr);
     DeriveBlock(material.law, material.property, 1, material.param);
+    PetscCall(options.Word({"block", regions[r], "element"}, &material.element));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

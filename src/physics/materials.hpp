@@ -15,6 +15,7 @@ inline constexpr int kMaxProperties = 20;  ///< properties a law may ask for
 /// A region's law and its numbers.
 struct Material {
   int law = 0;                                ///< number in BlockLaws
+  std::string element = "full";               ///< name of the element form
   double density = 0;                         ///< kg/m^3
   double property[kMaxProperties] = {};       ///< in the order of the law's kProperties
   double param[kMaxParams] = {};              ///< of an element of size 1 m

@@ -20,6 +20,7 @@ namespace cdem {
 struct SceneResult {
   std::vector<double> u, v;  ///< owned nodes, [n][3]
   std::vector<SpringHistory> history;
+  std::vector<ElementHistories> elements;
   Observed observed;  ///< of this rank
   bool failed = false;
 };
@@ -57,7 +58,7 @@ inline SceneResult RunScene(const std::string &options, MPI_Comm comm = PETSC_CO
     return result;
   }
   const double *u, *v;
-  const std::vector<SpringHistory> *history;
+  const Histories *history;
   StepArgs next;
   next.dt = s->dt();
   std::vector<double> schedule(3 * static_cast<std::size_t>(s->tables().n_tables), 0.0);
@@ -66,13 +67,26 @@ inline SceneResult RunScene(const std::string &options, MPI_Comm comm = PETSC_CO
   const std::size_t n = 3 * static_cast<std::size_t>(s->tables().n_owned);
   result.u.assign(u, u + n);
   result.v.assign(v, v + n);
-  for (std::size_t g = 0; g < history->size(); ++g) {  // without the padding, which backends leave as it falls
+  // without the padding, which backends leave as it falls
+  for (std::size_t g = 0; g < history->elements.size(); ++g) {
+    const ElementTable &t = s->tables().elements[g];
+    const ElementHistories &all = history->elements[g];
+    ElementHistories live;
+    if (t.states > 0) live.state.assign(all.state.begin(), all.state.begin() + t.n);
+    for (int k = 0; k < t.states; ++k) {
+      const auto row = all.value.begin() + static_cast<std::ptrdiff_t>(k) * t.n_pad;
+      live.value.insert(live.value.end(), row, row + t.n);
+    }
+    if (t.judged) live.broken_time.assign(all.broken_time.begin(), all.broken_time.begin() + t.n);
+    result.elements.push_back(live);
+  }
+  for (std::size_t g = 0; g < history->springs.size(); ++g) {
     const SpringTable &t = s->tables().springs[g];
     SpringHistory live;
     if (!t.state.empty()) {
-      live.state.assign((*history)[g].state.begin(), (*history)[g].state.begin() + t.n);
+      live.state.assign(history->springs[g].state.begin(), history->springs[g].state.begin() + t.n);
       for (int k = 0; k < 3; ++k) {
-        const auto row = (*history)[g].slip.begin() + static_cast<std::ptrdiff_t>(k) * t.n_pad;
+        const auto row = history->springs[g].slip.begin() + static_cast<std::ptrdiff_t>(k) * t.n_pad;
         live.slip.insert(live.slip.end(), row, row + t.n);
       }
     }
@@ -130,6 +144,7 @@ inline void ExpectRanksDoNotMatter(const std::string &options) {
   EXPECT_TRUE(SameBits(alone.v, together.v)) << RelativeDifference(together.v, alone.v);
   EXPECT_EQ(alone.observed.broken, together.observed.broken);
   EXPECT_EQ(alone.observed.springs, together.observed.springs);
+  EXPECT_EQ(alone.observed.broken_elements, together.observed.broken_elements);
 }
 
 }  // namespace cdem

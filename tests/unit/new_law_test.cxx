@@ -126,7 +126,7 @@ std::vector<double> CornerForces(int law, double lambda_factor) {
 
 TEST(NewLaw, OfBlocksRunsInEveryElement) {
   for (Shape shape : {Shape::kTet, Shape::kWedge, Shape::kHex})
-    VisitElement(shape, [&](auto form) {
+    VisitElement(shape, 0, [&](auto form) {
       using Form = decltype(form);
       const int law = Blocks::Find("stiffer");
       EXPECT_EQ(CornerForces<Form>(law, 1), CornerForces<Form>(Blocks::Find("elastic"), 2));

@@ -50,7 +50,8 @@ TEST_P(Patch, LinearFieldIsExact) {
   g.Stress(scene_->materials()[0], exact);
   const std::vector<double> observed = InternalForces(tables(), u, &results);
   std::vector<double> plain(u.size(), 0.0);
-  HostElements(tables(), u.data(), nullptr, 0, plain.data());
+  std::vector<ElementHistories> elements = StartElements(tables());
+  HostElements(tables(), u.data(), nullptr, 0, 0, elements, plain.data());
 
   const double corner_force = LargestCornerForce(tables(), u);
   const std::vector<char> inner = InnerNodes(scene_->mesh(), scene_->nodes());
@@ -170,8 +171,9 @@ void ExpectPlaneCarries(const std::string &shape, const Joint &joint, const Grad
   ExpectBalance(InternalForces(body.tables, u, &results), load, corner_force);
   ExpectStress(stress, exact);
   // the committing passes too, and nothing breaks
-  std::vector<SpringHistory> history = StartHistories(body.tables), start = history;
-  HostElements(body.tables, u.data(), nullptr, 0, f.data());
+  std::vector<SpringHistory> history = StartSprings(body.tables), start = history;
+  std::vector<ElementHistories> elements = StartElements(body.tables);
+  HostElements(body.tables, u.data(), nullptr, 0, 0, elements, f.data());
   HostSprings(body.tables, u.data(), nullptr, 0, history, f.data());
   ExpectBalance(f, load, corner_force);
   std::printf("    %-5s with springs on a plane: %.1e of the largest corner force\n", shape.c_str(),

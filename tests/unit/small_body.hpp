@@ -108,8 +108,9 @@ inline std::vector<double> InternalForces(const Tables &tables, const std::vecto
   std::vector<double> f(u.size(), 0.0);
   ElementResults unused;
   SpringResults unused_too;
-  HostElementsObserve(tables, 1 << 30, u.data(), f.data(), elements ? elements : &unused);
-  HostSpringsObserve(tables, u.data(), nullptr, 0, StartHistories(tables), f.data(), springs ? springs : &unused_too);
+  HostElementsObserve(tables, 1 << 30, u.data(), nullptr, 0, StartElements(tables), f.data(),
+                      elements ? elements : &unused);
+  HostSpringsObserve(tables, u.data(), nullptr, 0, StartSprings(tables), f.data(), springs ? springs : &unused_too);
   return f;
 }
 
@@ -118,7 +119,7 @@ inline double LargestCornerForce(const Tables &tables, const std::vector<double>
   double most = 0;
   for (const ElementTable &t : tables.elements)
     for (int e = 0; e < t.n; ++e)
-      VisitElement(t.shape, [&](auto form) {
+      VisitElement(t.shape, t.form, [&](auto form) {
         constexpr int corners = decltype(form)::kCorners;
         double x[corners][3], w[corners][3], f[corners][3];
         for (int a = 0; a < corners; ++a) {

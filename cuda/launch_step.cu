@@ -1,0 +1,84 @@
+// The kernels of one step.
+#include "core/events.hpp"
+#include "cuda/device_tables.cuh"
+
+namespace cdem {
+
+/// Launches a kernel; with overlap it may begin while the one before it in the stream ends (WaitForPrevious).
+template <class... Params, class... Args>
+static PetscErrorCode Launch(void (*kernel)(Params...), int blocks, int block, const LaunchArgs &launch,
+                             const Args &...args) {
+  PetscFunctionBeginUser;
+  cudaLaunchAttribute early;
+  early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+  early.val.programmaticStreamSerializationAllowed = 1;
+  cudaLaunchConfig_t config = {};
+  config.gridDim = dim3(blocks);
+  config.blockDim = dim3(block);
+  config.stream = launch.stream;
+  config.attrs = &early;
+  config.numAttrs = launch.overlap ? 1 : 0;
+  CdemCuda(cudaLaunchKernelEx(&config, kernel, static_cast<Params>(args)...));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// Runs a phase; timed: inside its log event, until the GPU has done it.
+template <class Phase>
+static PetscErrorCode Run(PetscLogEvent event, const LaunchArgs &launch, Phase &&phase) {
+  PetscFunctionBeginUser;
+  if (launch.timed) PetscCall(PetscLogEventBegin(event, nullptr, nullptr, nullptr, nullptr));
+  PetscCall(phase());
+  if (launch.timed) {
+    CdemCuda(cudaStreamSynchronize(launch.stream));
+    PetscCall(PetscLogEventEnd(event, nullptr, nullptr, nullptr, nullptr));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, BatchState *batch, const LaunchArgs &launch) {
+  PetscFunctionBeginUser;
+  const double beta = t_->beta;
+  for (const Elements &e : elements_) {
+    const bool first = &e == &elements_[0];  // says which step it is
+    PetscErrorCode ierr = PETSC_SUCCESS;
+    VisitBlock(e.host->shape, e.host->form, e.host->law, [&](auto form, auto law) {
+      using Form = decltype(form);
+      using Law = decltype(law);
+      auto kernel = beta != 0 ? ElementKernel<Form, Law, true> : ElementKernel<Form, Law, false>;
+      ierr = Launch(kernel, Blocks(e.host->n, launch.block), launch.block, launch, View(e, nodes.u, nodes.v, beta),
+                    batch, first);
+    });
+    PetscCall(ierr);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DeviceTables::LaunchSprings(const NodeView &nodes, const LaunchArgs &launch) {
+  PetscFunctionBeginUser;
+  const double beta = t_->beta;
+  for (const Springs &s : springs_) {
+    PetscErrorCode ierr = PETSC_SUCCESS;
+    JointLaws::Visit(s.host->law, [&](auto law) {
+      using Law = decltype(law);
+      auto kernel = beta != 0 ? SpringKernel<Law, true> : SpringKernel<Law, false>;
+      ierr = Launch(kernel, Blocks(s.host->n, kBlock), kBlock, launch, View(s, nodes.u, nodes.v, beta));
+    });
+    PetscCall(ierr);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DeviceTables::LaunchStep(const NodeView &nodes, const StepArgs &args, BatchState *batch,
+                                        const LaunchArgs &launch) {
+  PetscFunctionBeginUser;
+  PetscCall(Run(events.elements, launch, [&] { return LaunchElements(nodes, batch, launch); }));
+  if (!springs_.empty()) PetscCall(Run(events.springs, launch, [&] { return LaunchSprings(nodes, launch); }));
+  if (t_->n_owned == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  auto kernel = t_->records.n > 0 ? NodeKernel<true> : NodeKernel<false>;
+  PetscCall(Run(events.nodes, launch, [&] {
+    return Launch(kernel, Blocks(t_->n_owned, kBlock), kBlock, launch, nodes, args, Lists(), batch);
+  }));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem
