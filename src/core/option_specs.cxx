@@ -24,6 +24,8 @@ static std::vector<OptionSpec> &Registry() {
       {"block_<region>_poisson", T::kReal, "", "required", "Poisson's ratio, above -1 and below 0.5", ""},
       {"block_<region>_density", T::kReal, "kg/m^3", "required", "density", ""},
 
+      {"block_<region>_scatter_volume", T::kReal, "m^3", "none", "volume V0 for which the Weibull means hold: an element of volume V has (V0/V)^(1/m) times them", ""},
+
       {"interfaces", T::kNames, "", "", "declares the interfaces; where two claim a face the later one has it", ""},
       {"interface_<name>_on", T::kText, "", "the surface of its name", "its faces: `surface:S`; `between:A:B`, from region A to B; `inside:A`, all faces inside region A; `all`", ""},
       {"interface_<name>_law", T::kWord, "", "elastic", "law of the springs", "elastic,brittle"},

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/lanes.hpp"
+#include "forces/params.hpp"
 #include "mesh/geometry.hpp"
 #include "physics/elements.hpp"
 
@@ -114,6 +115,7 @@ void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Mater
       for (int a = 0; a < t.corners; ++a)
         t.node[static_cast<std::size_t>(a) * t.n_pad + e] = static_cast<int>(nodes.Corners(c)[a]);
     }
+    AddOwnParams(mesh, materials, &t, tables);
     t.corner_start = tables->n_slots;
     tables->n_slots += static_cast<std::size_t>(t.corners) * t.n_pad;
     tables->elements.push_back(std::move(t));
@@ -150,14 +152,16 @@ void FaceStiffness(const Mesh &mesh, const std::vector<Material> &materials, con
                    double *kn, double *ks) {
   *kn = joint.kn, *ks = joint.ks;
   if (*kn > 0 && *ks > 0) return;
-  const Material &m0 = materials[mesh.cell_region[face.cell[0]]], &m1 = materials[mesh.cell_region[face.cell[1]]];
+  double m0[kMaxParams], m1[kMaxParams];  // lambda and mu come first
+  CellParams(mesh, materials, face.cell[0], m0);
+  CellParams(mesh, materials, face.cell[1], m1);
   double c0[3], c1[3], d2 = 0;
   CellCentre(mesh, face.cell[0], c0);
   CellCentre(mesh, face.cell[1], c1);
   for (int k = 0; k < 3; ++k) d2 += (c1[k] - c0[k]) * (c1[k] - c0[k]);
   const double b_over_h = joint.stiffness_factor / std::sqrt(d2);
-  if (*kn < 0) *kn = b_over_h * std::min(m0.lambda() + 2 * m0.mu(), m1.lambda() + 2 * m1.mu());
-  if (*ks < 0) *ks = b_over_h * std::min(m0.mu(), m1.mu());
+  if (*kn < 0) *kn = b_over_h * std::min(m0[0] + 2 * m0[1], m1[0] + 2 * m1[1]);
+  if (*ks < 0) *ks = b_over_h * std::min(m0[1], m1[1]);
 }
 
 void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
@@ -233,13 +237,13 @@ PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vect
   tables->x.resize(3 * static_cast<std::size_t>(nodes.n_local));
   for (PetscInt i = 0; i < nodes.n_local; ++i) std::copy_n(mesh.X(nodes.vertex[i]), 3, &tables->x[3 * i]);
   PetscCall(CheckForms(mesh, materials));
+  PetscCall(CheckOwnParams(mesh, materials));
+  StartBlockParams(materials, tables);
   BuildElements(mesh, nodes, materials, tables);
   PetscCall(BuildMass(mesh, nodes, materials, tables));
   BuildSprings(mesh, nodes, face_interface, materials, joints, tables);
   CdemCheck(tables->n_slots < static_cast<std::size_t>(std::numeric_limits<int>::max()), PETSC_COMM_SELF,
             "a rank has %zu element corners and springs: more than it can count; use more ranks", tables->n_slots);
-  for (const Material &m : materials)
-    tables->block_param.insert(tables->block_param.end(), m.param, m.param + kMaxParams);
   for (const Joint &j : joints) tables->joint_param.insert(tables->joint_param.end(), j.param, j.param + kMaxParams);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

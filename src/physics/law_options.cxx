@@ -3,6 +3,7 @@
 #include "core/option_names.hpp"
 #include "core/options.hpp"
 #include "physics/laws.hpp"
+#include "physics/scatter.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -26,6 +27,13 @@ static void RegisterLaw(const std::string &prefix) {
       fallback = *p.words ? SplitList(p.words)[static_cast<int>(p.fallback)] : Text(p.fallback);
     AddOption(
         {name.c_str(), *p.words ? OptionType::kWord : OptionType::kReal, p.unit, fallback.c_str(), p.text, p.words});
+    if (Scatters(p)) {
+      const std::string
+          scatter = name + "_scatter",
+          text = "how " + std::string(p.key) +
+                 " varies about its value, the mean: `weibull:m`, `normal:s`, `uniform:d` (over the mean), cut at 0";
+      AddOption({scatter.c_str(), OptionType::kText, "", "", text.c_str(), ""});
+    }
   }
 }
 

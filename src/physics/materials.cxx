@@ -61,6 +61,24 @@ static PetscErrorCode ReadLaw(Options &options, const std::string &family, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/// Reads -<family>_<name>_<property>_scatter for the properties that can.
+template <std::size_t n>
+static PetscErrorCode ReadScatters(Options &options, const std::string &family, const std::string &name,
+                                   const std::array<Property, n> &properties, ScatterSet *scatter) {
+  PetscFunctionBeginUser;
+  PetscInt seed = 1;
+  PetscCall(options.Int("seed", &seed));
+  scatter->seed = seed;
+  for (std::size_t i = 0; i < n; ++i) {
+    bool set = false;
+    if (Scatters(properties[i]))
+      PetscCall(
+          ReadScatter(options, {family, name, std::string(properties[i].key) + "_scatter"}, &scatter->of[i], &set));
+    scatter->any = scatter->any || set;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 template <class List>
 static PetscErrorCode ReadLawName(Options &options, const std::string &family, const std::string &name, int *law) {
   PetscFunctionBeginUser;
@@ -88,6 +106,15 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
                      [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.property); });
     PetscCall(ierr);
     DeriveBlock(material.law, material.property, 1, material.param);
+    BlockLaws::Visit(material.law, [&](auto law) {
+      ierr = ReadScatters(options, "block", regions[r], decltype(law)::kProperties, &material.scatter);
+    });
+    PetscCall(ierr);
+    bool sized;
+    PetscCall(options.Real({"block", regions[r], "scatter_volume"}, &material.scatter.volume, &sized));
+    CdemCheck(!sized || (material.scatter.any && material.scatter.volume > 0), options.comm(),
+              "%s is %g; it must be above 0, and goes with a weibull scatter",
+              Options::Spelled({"block", regions[r], "scatter_volume"}).c_str(), material.scatter.volume);
     PetscCall(options.Word({"block", regions[r], "element"}, &material.element));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

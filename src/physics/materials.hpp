@@ -2,6 +2,7 @@
 #pragma once
 #include "core/petsc.hpp"
 #include "physics/law.hpp"
+#include "physics/scatter.hpp"
 
 #include <string>
 #include <vector>
@@ -10,15 +11,14 @@ namespace cdem {
 
 class Options;
 
-inline constexpr int kMaxProperties = 20;  ///< properties a law may ask for
-
 /// A region's law and its numbers.
 struct Material {
-  int law = 0;                                ///< number in BlockLaws
-  std::string element = "full";               ///< name of the element form
-  double density = 0;                         ///< kg/m^3
-  double property[kMaxProperties] = {};       ///< in the order of the law's kProperties
-  double param[kMaxParams] = {};              ///< of an element of size 1 m
+  int law = 0;                           ///< number in BlockLaws
+  std::string element = "full";          ///< name of the element form
+  double density = 0;                    ///< kg/m^3
+  double property[kMaxProperties] = {};  ///< in the order of the law's kProperties
+  double param[kMaxParams] = {};         ///< of an element of size 1 m
+  ScatterSet scatter;
   double lambda() const { return param[0]; }  ///< elastic part [Pa]
   double mu() const { return param[1]; }
 };

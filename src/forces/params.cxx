@@ -1,0 +1,104 @@
+#include "forces/params.hpp"
+
+#include "core/error.hpp"
+#include "mesh/geometry.hpp"
+#include "physics/laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace cdem {
+
+bool HasOwnParams(const Material &material) {
+  if (material.scatter.any) return true;
+  bool sized = false;
+  BlockLaws::Visit(material.law, [&](auto law) { sized = decltype(law)::kNeedsSize; });
+  if (!sized) return false;
+  double other[kMaxParams] = {};  // a law may need the size only with some of its options
+  DeriveBlock(material.law, material.property, 2, other);
+  return !std::equal(other, other + kMaxParams, material.param);
+}
+
+static double Volume(const Mesh &mesh, PetscInt cell) {
+  double x[kMaxCorners][3], volume[kMaxCorners];
+  for (int a = 0; a < Info(mesh.cell_shape[cell]).corners; ++a) std::copy_n(mesh.X(mesh.Corners(cell)[a]), 3, x[a]);
+  return CornerVolumes(mesh.cell_shape[cell], x, volume);
+}
+
+/// The properties of a cell as they scatter.
+static void CellProperties(const Mesh &mesh, const Material &m, PetscInt cell, double volume, double *property) {
+  BlockLaws::Visit(m.law, [&](auto law) {
+    const auto &list = decltype(law)::kProperties;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Scatter &scatter = m.scatter.of[i];
+      const bool sized = scatter.kind == Scatter::kWeibull && m.scatter.volume > 0;
+      const double factor = sized ? std::pow(m.scatter.volume / volume, 1 / scatter.spread) : 1;
+      property[i] = ScatteredValue(scatter, list[i], m.property[i], factor, m.scatter.seed,
+                                   static_cast<std::uint64_t>(mesh.cell_global[cell]));
+    }
+  });
+}
+
+void CellParams(const Mesh &mesh, const std::vector<Material> &materials, PetscInt cell, double *param) {
+  const Material &m = materials[mesh.cell_region[cell]];
+  if (!HasOwnParams(m)) {
+    std::copy_n(m.param, kMaxParams, param);
+    return;
+  }
+  double property[kMaxProperties] = {};
+  const double volume = Volume(mesh, cell);
+  CellProperties(mesh, m, cell, volume, property);
+  std::fill_n(param, kMaxParams, 0.0);
+  DeriveBlock(m.law, property, std::cbrt(volume), param);
+}
+
+void StartBlockParams(const std::vector<Material> &materials, Tables *tables) {
+  for (const Material &m : materials)
+    tables->block_param.insert(tables->block_param.end(), m.param, m.param + kMaxParams);
+}
+
+void AddOwnParams(const Mesh &mesh, const std::vector<Material> &materials, ElementTable *table, Tables *tables) {
+  std::vector<char> own;
+  for (const Material &m : materials) own.push_back(HasOwnParams(m));
+  std::vector<double> &rows = tables->block_param;
+  int last = -1;
+  for (int e = 0; e < table->n_pad; ++e) {
+    if (!own[table->region[e]]) continue;
+    double param[kMaxParams];
+    CellParams(mesh, materials, table->cell[std::min(e, table->n - 1)], param);
+    if (last < 0 || !std::equal(param, param + kMaxParams, &rows[static_cast<std::size_t>(kMaxParams) * last])) {
+      last = static_cast<int>(rows.size() / kMaxParams);
+      rows.insert(rows.end(), param, param + kMaxParams);
+    }
+    table->material[e] = last;
+  }
+}
+
+PetscErrorCode CheckOwnParams(const Mesh &mesh, const std::vector<Material> &materials) {
+  PetscFunctionBeginUser;
+  struct {
+    int found, rank;
+  } first = {1, 0};
+  char message[256] = "";
+  PetscCallMPI(MPI_Comm_rank(mesh.comm, &first.rank));
+  for (PetscInt c = 0; c < mesh.n_owned && first.found; ++c) {
+    const Material &m = materials[mesh.cell_region[c]];
+    if (!m.scatter.any) continue;
+    double property[kMaxProperties] = {}, volume = Volume(mesh, c);
+    CellProperties(mesh, m, c, volume, property);
+    std::string wrong;
+    BlockLaws::Visit(m.law, [&](auto law) { wrong = decltype(law)::Check(property); });
+    if (wrong.empty()) continue;
+    const double *x = mesh.X(mesh.Corners(c)[0]);
+    std::snprintf(message, sizeof message, "region '%s': in the element at (%g, %g, %g), as its properties scatter: %s",
+                  mesh.regions[mesh.cell_region[c]].c_str(), x[0], x[1], x[2], wrong.c_str());
+    first.found = 0;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_2INT, MPI_MINLOC, mesh.comm));
+  PetscCallMPI(MPI_Bcast(message, sizeof message, MPI_CHAR, first.rank, mesh.comm));
+  CdemCheck(first.found != 0, mesh.comm, "%s", message);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem
