@@ -41,6 +41,8 @@ class DeviceArray {
     if (n > 0) {
       CdemCuda(cudaMalloc(&data_, n * sizeof(T)));
       CdemCuda(cudaMemset(data_, 0, n * sizeof(T)));
+      CdemCuda(
+          cudaStreamSynchronize(nullptr));  // whoever uses it next may be on a stream that does not wait for this one
     }
     PetscFunctionReturn(PETSC_SUCCESS);
   }

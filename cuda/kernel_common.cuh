@@ -8,6 +8,7 @@
 namespace cdem {
 
 inline constexpr int kBlock = 128;       ///< threads of spring and node kernels, and of all observing ones
+inline constexpr int kNodeBlock = 64;    ///< threads of the stepping node kernel: it has few blocks in small scenes
 inline constexpr int kNoSlot = INT_MAX;  ///< padding of the slot lists
 inline constexpr int kElementSums = 4, kSpringSums = 5, kNodeSums = 9;  ///< columns of partial sums
 

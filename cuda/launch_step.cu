@@ -76,7 +76,7 @@ PetscErrorCode DeviceTables::LaunchStep(const NodeView &nodes, const StepArgs &a
   if (t_->n_owned == 0) PetscFunctionReturn(PETSC_SUCCESS);
   auto kernel = t_->records.n > 0 ? NodeKernel<true> : NodeKernel<false>;
   PetscCall(Run(events.nodes, launch, [&] {
-    return Launch(kernel, Blocks(t_->n_owned, kBlock), kBlock, launch, nodes, args, Lists(), batch);
+    return Launch(kernel, Blocks(t_->n_owned, kNodeBlock), kNodeBlock, launch, nodes, args, Lists(), batch);
   }));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -43,7 +43,8 @@ __device__ __forceinline__ void SumSlots(const SlotLists &lists, const SlotHead 
 }
 
 template <bool kRecords>
-__global__ void __launch_bounds__(kBlock) NodeKernel(NodeView n, StepArgs args, SlotLists lists, BatchState *batch) {
+__global__ void __launch_bounds__(kNodeBlock)
+    NodeKernel(NodeView n, StepArgs args, SlotLists lists, BatchState *batch) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i >= n.n_owned) return;
   double f[3];
