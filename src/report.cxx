@@ -1,5 +1,6 @@
 // The part of Simulation that speaks: the header at the start, the summary and the timing at the end.
 #include "cdem_config.h"
+#include "io/safe_file.hpp"
 #include "simulation.hpp"
 
 namespace cdem {
@@ -50,6 +51,7 @@ PetscErrorCode Simulation::PrintHeader() {
           interface_names_[i].c_str(), joints_[i].stiffness_factor, 1 / (1 + 1 / joints_[i].stiffness_factor));
       PetscCall(line("", text));
     }
+  PetscCall(PrintJointSets());
   std::snprintf(text, sizeof text, "dt %.6g s", dt_);
   std::string step = text;
   if (bound_known_) {
@@ -83,6 +85,31 @@ PetscErrorCode Simulation::PrintHeader() {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode Simulation::PrintJointSets() {
+  PetscFunctionBeginUser;
+  for (const JointSet &set : joint_sets_) {
+    char wanted[64] = "";
+    if (set.p32 > 0) std::snprintf(wanted, sizeof wanted, " (%.6g wanted)", set.p32);
+    if (set.count > 0) std::snprintf(wanted, sizeof wanted, " (%.6g centres per m^3 wanted)", set.count);
+    PetscCall(PetscPrintf(comm_,
+                          "%-11s %s: %zu discs, P32 %.6g 1/m%s; %lld faces, %.3g %% of those inside, with %.3g times "
+                          "the discs' area\n",
+                          "joints", set.name.c_str(), set.discs.size(), set.P32(), wanted,
+                          static_cast<long long>(set.taken_faces), 100 * set.FaceShare(), set.AreaRatio()));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::WriteJointSets() {
+  PetscFunctionBeginUser;
+  PetscMPIInt rank;
+  PetscCallMPI(MPI_Comm_rank(comm_, &rank));
+  std::string failure;
+  if (rank == 0 && !joint_sets_.empty()) failure = ReplaceFile(output_dir_ + "/joints.csv", DiscTable(joint_sets_));
+  PetscCall(CheckFailure(comm_, failure));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 nlohmann::json Simulation::Summary() const {
   nlohmann::json s, elements;
   PetscMPIInt ranks = 1;
@@ -103,6 +130,16 @@ nlohmann::json Simulation::Summary() const {
   s["blocks"] = nodes_.n_blocks;
   s["interfaces"] = n_interface_faces_;
   s["springs"] = n_springs_;
+  for (const JointSet &set : joint_sets_)
+    s["joints"].push_back({{"name", set.name},
+                           {"discs", set.discs.size()},
+                           {"p32_wanted", set.p32 > 0 ? nlohmann::json(set.p32) : nlohmann::json()},
+                           {"p32", set.P32()},
+                           {"disc_area", set.disc_area},
+                           {"faces", set.taken_faces},
+                           {"face_share", set.FaceShare()},
+                           {"face_area", set.taken_area},
+                           {"area_ratio", set.AreaRatio()}});
   s["broken_springs"] = static_cast<std::int64_t>(last_.broken);
   s["dt"] = dt_;
   s["dt_critical"] = bound_known_ ? nlohmann::json(bound_.dt) : nlohmann::json();

@@ -32,6 +32,7 @@ PetscErrorCode Simulation::SetUp() {
   PetscCall(options_.CheckLeft());
   if (!output_dir_.empty()) {
     PetscCall(PrepareOutputDir(comm_, output_dir_, output_overwrite_));
+    PetscCall(WriteJointSets());
     PetscCall(recorder_.Open(comm_, output_dir_, histories_));
     PetscCall(fields_.Open(output_dir_, mesh_, nodes_, tables_, face_interface_));
   }
@@ -65,7 +66,11 @@ PetscErrorCode Simulation::ReadScene() {
   PetscCall(CreateMesh(comm_, options_, &mesh_));
   PetscCall(PetscLogEventEnd(events.mesh, nullptr, nullptr, nullptr, nullptr));
   remarks_ = mesh_.remarks;
-  PetscCall(SelectInterfaces(mesh_, options_, &interface_names_, &face_interface_));
+  Phase("joints");
+  std::vector<FaceSet> joint_faces;
+  PetscCall(CreateJointSets(mesh_, options_, &joint_sets_, &joint_faces, &remarks_));
+  Phase("scene");
+  PetscCall(SelectInterfaces(mesh_, options_, joint_faces, &interface_names_, &face_interface_));
   PetscCall(ReadMaterials(options_, mesh_.regions, &materials_));
   PetscCall(ReadJoints(options_, interface_names_, &joints_, &remarks_));
   PetscCall(ReadTables(options_, &table_names_, &time_tables_));

@@ -5,6 +5,7 @@
 #include "forces/step_bound.hpp"
 #include "forces/validity.hpp"
 #include "io/watch.hpp"
+#include "joints/network.hpp"
 #include "time/ts_central.hpp"
 
 namespace cdem {
@@ -27,6 +28,8 @@ class Simulation final : public Stepper {
   const Mesh &mesh() const { return mesh_; }
   const Nodes &nodes() const { return nodes_; }
   const Tables &tables() const { return tables_; }
+  const std::vector<int> &face_interface() const { return face_interface_; }
+  const std::vector<JointSet> &joint_sets() const { return joint_sets_; }
   const std::vector<Material> &materials() const { return materials_; }
   const StepBound &bound() const { return bound_; }
   double dt() const { return dt_; }
@@ -45,6 +48,8 @@ class Simulation final : public Stepper {
   PetscErrorCode CreateTS();
   PetscErrorCode SetInitialVelocity();
   PetscErrorCode PrintHeader();
+  PetscErrorCode PrintJointSets();
+  PetscErrorCode WriteJointSets();
   nlohmann::json Summary() const;
   static PetscErrorCode MonitorTS(TS ts, PetscInt step, PetscReal time, Vec u, void *ctx);
   PetscErrorCode Watch(PetscInt step, double time);
@@ -62,6 +67,7 @@ class Simulation final : public Stepper {
   Nodes nodes_;
   std::vector<std::string> interface_names_, table_names_, remarks_;
   std::vector<int> face_interface_;
+  std::vector<JointSet> joint_sets_;
   std::vector<Material> materials_;
   std::vector<Joint> joints_;
   std::vector<TimeTable> time_tables_;

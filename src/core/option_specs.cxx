@@ -26,8 +26,18 @@ static std::vector<OptionSpec> &Registry() {
 
       {"block_<region>_scatter_volume", T::kReal, "m^3", "none", "volume V0 for which the Weibull means hold: an element of volume V has (V0/V)^(1/m) times them", ""},
 
+      {"joints", T::kNames, "", "", "declares the joint sets; each needs an interface with `on joints:J`", ""},
+      {"joint_<name>_file", T::kText, "", "", "its discs: lines `x y z dip dip_direction diameter` (m, degrees), with blanks or commas, `#` begins a comment", ""},
+      {"joint_<name>_p32", T::kReal, "1/m", "", "instead of a file: draws discs until their area in the region, per volume of it, is nearest to this", ""},
+      {"joint_<name>_count", T::kReal, "1/m^3", "", "instead of both: draws so many disc centres per volume, in the box round the region grown by the largest radius", ""},
+      {"joint_<name>_dip", T::kReal, "degrees", "required by p32, count", "mean dip, from 0 to 90", ""},
+      {"joint_<name>_dip_direction", T::kReal, "degrees", "required by p32, count", "mean dip direction, clockwise from +y, from 0 to 360", ""},
+      {"joint_<name>_fisher", T::kReal, "", "all parallel", "kappa of Fisher's distribution about that; 0: every direction alike", ""},
+      {"joint_<name>_diameter", T::kText, "m", "required by p32, count", "law of the diameter D: `fixed:d`; `uniform:min,max`; `lognormal:mean,sd` of D; `power:a,min,max`, density as D^-a", ""},
+      {"joint_<name>_within", T::kText, "", "the whole mesh", "the region to which the set is confined", ""},
+
       {"interfaces", T::kNames, "", "", "declares the interfaces; where two claim a face the later one has it", ""},
-      {"interface_<name>_on", T::kText, "", "the surface of its name", "its faces: `surface:S`; `between:A:B`, from region A to B; `inside:A`, all faces inside region A; `all`", ""},
+      {"interface_<name>_on", T::kText, "", "the surface of its name", "its faces: `surface:S`; `between:A:B`, from region A to B; `inside:A`, all faces inside region A; `joints:J`, the faces that joint set J takes; `all`", ""},
       {"interface_<name>_law", T::kWord, "", "elastic", "law of the springs", "elastic,brittle"},
       {"interface_<name>_kn", T::kReal, "Pa/m", "by stiffness_factor", "normal stiffness per area", ""},
       {"interface_<name>_ks", T::kReal, "Pa/m", "by stiffness_factor", "shear stiffness per area", ""},
@@ -108,6 +118,10 @@ const std::vector<OptionSection> &OptionSections() {
       {"mesh", "Mesh",
        "The box is region `box`; its sides are the surfaces `xmin`, `xmax`, `ymin`, `ymax`, `zmin`, `zmax`."},
       {"block_<region>_law", "Blocks", "Every region of the mesh needs its material."},
+      {"joints", "Joints",
+       "Sets of discs, drawn at random or read from a file. A face between two elements is taken where a disc "
+       "separates "
+       "their centres."},
       {"interfaces", "Interfaces", "Faces at which the mesh is split and joined by springs."},
       {"boundaries", "Boundaries", ""},
       {"gravity", "Gravity and initial velocity", ""},

@@ -60,8 +60,7 @@ PetscErrorCode Options::Raw(const OptionKey &key, std::vector<OptionType> types,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/// A number that fills the whole word and is finite.
-static bool ParseReal(const std::string &word, double *value) {
+bool ParseReal(const std::string &word, double *value) {
   char *end = nullptr;
   if (word.empty() || std::isspace(static_cast<unsigned char>(word[0]))) return false;
   *value = std::strtod(word.c_str(), &end);

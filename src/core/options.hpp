@@ -90,6 +90,9 @@ class Options {
   std::map<std::string, std::vector<std::string>> declared_;  // names by noun (region, boundary, ...)
 };
 
+/// Whether the whole word is a finite number, which it then gives.
+bool ParseReal(const std::string &word, double *value);
+
 /// Error for words on the command line that belong to no option (PETSc would ignore them).
 PetscErrorCode CheckArguments(int argc, char **argv);
 

@@ -32,7 +32,7 @@ bool HasNumber(const Text &name, const Text &mark, const Text &end) {
 
 // Files that only a run writes; a file of the user's (terrain.hdf, rock_mesh_fine.h5) is none of them.
 bool IsResult(const Text &name) {
-  return name == "summary.json" || name == "histories.csv" || EndsWith(name, ".hdf.series") ||
+  return name == "summary.json" || name == "histories.csv" || name == "joints.csv" || EndsWith(name, ".hdf.series") ||
          HasNumber(name, "_", ".hdf") || HasNumber(name, "_mesh_", ".h5") ||
          (name.rfind("checkpoint_", 0) == 0 && HasNumber(name, "_", ".h5"));
 }

@@ -32,9 +32,26 @@ static PetscErrorCode Region(const Mesh &mesh, const std::string &spelled, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SelectInterfaces(const Mesh &mesh, Options &options, std::vector<std::string> *names,
-                                std::vector<int> *face_interface) {
+static PetscErrorCode CheckJointsUsed(const Mesh &mesh, const std::vector<FaceSet> &joints,
+                                      const std::vector<char> &used) {
   PetscFunctionBeginUser;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const char *name = joints[j].name.c_str();
+    CdemCheck(
+        used[j], mesh.comm,
+        "-joints: no interface uses the joint set '%s': declare one (-interfaces %s -interface_%s_on joints:%s), or "
+        "take the set out",
+        name, name, name, name);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SelectInterfaces(const Mesh &mesh, Options &options, const std::vector<FaceSet> &joints,
+                                std::vector<std::string> *names, std::vector<int> *face_interface) {
+  PetscFunctionBeginUser;
+  std::vector<std::string> joint_names;
+  std::vector<char> used(joints.size(), 0);
+  for (const FaceSet &set : joints) joint_names.push_back(set.name);
   PetscCall(options.Names("interfaces", names));
   options.Declare("interface", *names);
   face_interface->assign(mesh.faces.size(), -1);
@@ -70,19 +87,28 @@ PetscErrorCode SelectInterfaces(const Mesh &mesh, Options &options, std::vector<
       int a;
       PetscCall(Region(mesh, spelled, part[1], &a));
       claim([a](int p, int q) { return p == a && q == a; });
+    } else if (part[0] == "joints" && part.size() == 2) {
+      const int set = Mesh::Find(joint_names, part[1]);
+      CdemCheck(set >= 0, mesh.comm, "%s: there is no joint set '%s'; declared with -joints are: %s", spelled.c_str(),
+                part[1].c_str(), Joined(joint_names).c_str());
+      for (PetscInt f : joints[set].faces) (*face_interface)[f] = id;
+      used[set] = 1;
     } else if (on == "all") {
       claim([](int, int) { return true; });
     } else {
-      CdemCheck(false, mesh.comm, "%s: not understood; it is surface:S, between:A:B, inside:A or all", spelled.c_str());
+      CdemCheck(false, mesh.comm, "%s: not understood; it is surface:S, between:A:B, inside:A, joints:J or all",
+                spelled.c_str());
     }
     PetscInt count = 0;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       count += (*face_interface)[f] == id && mesh.faces[f].cell[0] < mesh.n_owned;
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
     CdemCheck(count > 0, mesh.comm,
-              "%s: interface '%s' has no face: the faces asked for lie on the outer boundary, or there are none",
-              spelled.c_str(), name.c_str());
+              "%s: interface '%s' has no face: the faces asked for lie on the outer boundary, or there are none%s",
+              spelled.c_str(), name.c_str(),
+              part[0] == "joints" ? " (its discs separate no two elements: are they smaller than an element?)" : "");
   }
+  PetscCall(CheckJointsUsed(mesh, joints, used));
   for (std::size_t i = 0; i < names->size(); ++i) {
     PetscInt count = std::count(face_interface->begin(), face_interface->end(), static_cast<int>(i));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));

@@ -6,11 +6,18 @@ namespace cdem {
 
 class Options;
 
+/// Faces that something other than the mesh has named, such as a joint set.
+struct FaceSet {
+  std::string name;
+  std::vector<PetscInt> faces;  ///< indices into mesh.faces
+};
+
 /// Reads -interfaces and -interface_<name>_on.
+/// [in] joints: the faces of each joint set; a set that no interface uses is an error.
 /// [out] names: the declared interfaces, in order; face_interface: per face of the mesh, the interface that has it (the
 /// later one where two claim it) or -1. Collective. Errors: an unknown surface or region, an interface without faces.
-PetscErrorCode SelectInterfaces(const Mesh &mesh, Options &options, std::vector<std::string> *names,
-                                std::vector<int> *face_interface);
+PetscErrorCode SelectInterfaces(const Mesh &mesh, Options &options, const std::vector<FaceSet> &joints,
+                                std::vector<std::string> *names, std::vector<int> *face_interface);
 
 /// "a, b, c" for messages.
 std::string Joined(const std::vector<std::string> &names);
