@@ -17,7 +17,10 @@ GOOD = {
 }
 JOINTS = {"interfaces": "joints", "interface_joints_on": "all", "interface_joints_law": "brittle",
           "interface_joints_tension": 1e5, "interface_joints_cohesion": 1e5, "interface_joints_friction": 30.0}
+DISCS = {"joints": "j", "joint_j_p32": 1.0, "joint_j_dip": 30.0, "joint_j_dip_direction": 40.0,
+         "joint_j_diameter": "fixed:2", "interfaces": "i", "interface_i_on": "joints:j"}
 DROP = object()  # as a value: the option is left out
+FILE = {"joint_j_p32": DROP, "joint_j_dip": DROP, "joint_j_dip_direction": DROP, "joint_j_diameter": DROP}
 
 
 def changed(changes):
@@ -76,6 +79,26 @@ OPTIONS = {
     "unknown table": ({"boundary_zmin_fix": DROP, "boundary_zmin_velocity": (0, 0, 1), "boundary_zmin_table": "quake"},
                       ["quake"]),
     "unknown region of a velocity": ({"velocity_granite": (0, 0, 1)}, ["-velocity_granite", "box"]),
+    # joint sets
+    "unknown joint set": ({**DISCS, "interface_i_on": "joints:k"}, ["-interface_i_on", "joints:k", "'k'", "are: j"]),
+    "no joint set": ({"interfaces": "i", "interface_i_on": "joints:k"}, ["'k'", "-joints"]),
+    "joint set without an interface": ({**DISCS, "interfaces": DROP, "interface_i_on": DROP}, ["-joints", "'j'", "joints:j"]),
+    "joint set without discs": ({**DISCS, "joint_j_p32": DROP}, ["'j'", "-joint_j_p32", "-joint_j_count", "-joint_j_file"]),
+    "two sources of discs": ({**DISCS, "joint_j_count": 1.0}, ["'j'", "more than one", "-joint_j_count"]),
+    "p32 negative": ({**DISCS, "joint_j_p32": -1.0}, ["-joint_j_p32", "-1", "above 0"]),
+    "too many discs": ({**DISCS, "joint_j_p32": 1e10}, ["-joint_j_p32", "discs"]),
+    "dip above 90": ({**DISCS, "joint_j_dip": 100.0}, ["-joint_j_dip", "100", "90"]),
+    "no dip direction": ({**DISCS, "joint_j_dip_direction": DROP}, ["-joint_j_dip_direction", "degrees"]),
+    "kappa negative": ({**DISCS, "joint_j_fisher": -2.0}, ["-joint_j_fisher", "-2"]),
+    "unknown law of the diameter": ({**DISCS, "joint_j_diameter": "gamma:1,2"}, ["-joint_j_diameter", "gamma", "lognormal"]),
+    "diameter law short of a number": ({**DISCS, "joint_j_diameter": "power:2.5,1"}, ["-joint_j_diameter", "power:a,min,max"]),
+    "diameter cut-offs reversed": ({**DISCS, "joint_j_diameter": "power:2.5,9,1"}, ["-joint_j_diameter", "max above min"]),
+    "unknown region of a joint set": ({**DISCS, "joint_j_within": "rock"}, ["-joint_j_within", "rock", "box"]),
+    "misspelt key of a joint set": ({**DISCS, "joint_j_dipp": 3.0}, ["-joint_j_dipp", "dip"]),
+    "joint file missing": ({**DISCS, **FILE, "joint_j_file": "nowhere.txt"}, ["-joint_j_file", "nowhere.txt"]),
+    "dip of a joint file": ({**DISCS, **FILE, "joint_j_dip": 30.0, "joint_j_file": "nowhere.txt"}, ["-joint_j_file"]),
+    "joint set that takes no face": ({**DISCS, "joint_j_p32": DROP, "joint_j_count": 0.1, "joint_j_diameter": "fixed:0.001"},
+                                     ["interface 'i'", "no face"]),
     # laws and their numbers
     "unknown block law": ({"block_law": "elastick"}, ["-block_law", "elastick", "elastic"]),
     "unknown interface law": ({**JOINTS, "interface_joints_law": "britle"}, ["-interface_joints_law", "britle", "brittle"]),
@@ -146,7 +169,7 @@ def test_option_on_two_ranks(name, tmp_path):
 
 def test_good_scene_is_accepted(tmp_path):
     """The scene that the cases above spoil has nothing wrong of its own."""
-    for changes in ({}, JOINTS):
+    for changes in ({}, JOINTS, DISCS):
         done = harness.call(tmp_path / str(len(changes)), changed(changes))
         assert done.returncode == 0, text_of(done)
         assert (tmp_path / str(len(changes)) / "out" / "summary.json").exists()
@@ -248,6 +271,36 @@ def test_orphan_nodes_are_ignored_and_said(tmp_path):
     assert done.returncode == 0, text_of(done)
     said = [line for line in text_of(done).splitlines() if "bad.msh" in line and "2 nodes" in line and "ignored" in line]
     assert said, text_of(done)
+
+
+# Joint files
+
+DISC = "1 1 1 30 120 5\n"
+JOINT_FILES = {
+    "short line": (DISC + "# a comment\n1, 1, 1, 30, 120\n", ["-joint_j_file", "line 3 of bad.txt", "5 numbers", "x y z dip"]),
+    "long line": (DISC + "1 1 1 30 120 5 6\n", ["line 2 of bad.txt", "7 numbers"]),
+    "no number": (DISC + "1 1 one 30 120 5\n", ["line 2 of bad.txt", "'one'"]),
+    "dip of 91": ("1 1 1 91 120 5\n", ["line 1 of bad.txt", "dip", "91"]),
+    "diameter of 0": (DISC + DISC + "1 1 1 30 120 0\n", ["line 3 of bad.txt", "diameter"]),
+    "empty": ("", ["bad.txt"]),
+    "comments only": ("# x y z\n", ["bad.txt", "x y z dip"]),
+    "outside": ("9 9 9 0 0 1\n", ["bad.txt", "no disc", "'j'"]),
+}
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("name", JOINT_FILES)
+def test_joint_file(name, ranks, tmp_path):
+    text, words = JOINT_FILES[name]
+    (tmp_path / "bad.txt").write_text(text)
+    assert_refused(tmp_path, changed({**DISCS, **FILE, "joint_j_file": "bad.txt"}), words, ranks=ranks)
+
+
+def test_good_joint_file_is_accepted(tmp_path):
+    (tmp_path / "good.txt").write_text(DISC + "9 9 9 0 0 1\n")
+    done = harness.call(tmp_path, changed({**DISCS, **FILE, "joint_j_file": "good.txt"}))
+    assert done.returncode == 0, text_of(done)
+    assert "1 of 2 discs of good.txt lie outside" in text_of(done)
 
 
 # Folders, machines, runs
