@@ -1,11 +1,11 @@
 #include "joints/draw.hpp"
 
+#include "core/random.hpp"
 #include "core/small.hpp"
 
 #include <Random123/philox.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 namespace cdem {
@@ -33,14 +33,10 @@ double PowerIntegral(double q, double low, double high) {
 double LogSd(const DiameterLaw &law) { return std::sqrt(std::log1p(law.p[1] * law.p[1] / (law.p[0] * law.p[0]))); }
 double LogMean(const DiameterLaw &law) { return std::log(law.p[0]) - 0.5 * LogSd(law) * LogSd(law); }
 
-/// From 0 to below 1.
-double Uniform(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
-
-/// A number for the name, so that a set keeps its discs when others come or go (FNV-1a; options know no large letters).
-std::uint64_t Stream(const std::string &name) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (unsigned char c : name) hash = (hash ^ static_cast<std::uint64_t>(std::tolower(c))) * 0x100000001b3u;
-  return hash;
+/// Four random numbers of a disc. The key is the name of the set, so that a set keeps its discs when others come or go;
+/// the 1 keeps them apart from strengths that scatter.
+r123::Philox4x64::ctr_type Random(std::uint64_t n, std::uint64_t block, std::uint64_t seed, std::uint64_t stream) {
+  return r123::Philox4x64()({{n, block, 1, 0}}, {{seed, stream}});
 }
 
 }  // namespace
@@ -108,7 +104,8 @@ double DiameterLaw::MeanSquare() const {
 
 DiscSource::DiscSource(const JointLaw &law, std::int64_t seed, const std::string &name, const double lower[3],
                        const double upper[3])
-    : law_(law), seed_(static_cast<std::uint64_t>(seed)), stream_(Stream(name)), grow_(0.5 * law.diameter.Largest()) {
+    : law_(law), seed_(static_cast<std::uint64_t>(seed)), stream_(KeyNumber(name)),
+      grow_(0.5 * law.diameter.Largest()) {
   std::copy_n(lower, 3, lower_);
   std::copy_n(upper, 3, upper_);
   NormalOf(law.dip, law.dip_direction, mean_);
@@ -138,20 +135,20 @@ double DiscSource::Diameter(std::uint64_t n, double uniform) const {
       break;
   }
   for (std::uint64_t block = 2;; ++block) {
-    const auto bits = r123::Philox4x64()({{n, block, 0, 0}}, {{seed_, stream_}});
+    const auto bits = Random(n, block, seed_, stream_);
     for (int i = 0; i < 4; i += 2) {
-      const double normal = std::sqrt(-2 * std::log1p(-Uniform(bits[i]))) * std::cos(2 * kPi * Uniform(bits[i + 1]));
+      const double normal = std::sqrt(-2 * std::log1p(-UnitReal(bits[i]))) * std::cos(2 * kPi * UnitReal(bits[i + 1]));
       if (std::fabs(normal) <= DiameterLaw::kCut) return std::exp(LogMean(law) + normal * LogSd(law));
     }
   }
 }
 
 bool DiscSource::Draw(std::uint64_t n, Disc *disc) const {
-  auto bits = r123::Philox4x64()({{n, 0, 0, 0}}, {{seed_, stream_}});
-  disc->radius = 0.5 * Diameter(n, Uniform(bits[3]));
+  auto bits = Random(n, 0, seed_, stream_);
+  disc->radius = 0.5 * Diameter(n, UnitReal(bits[3]));
   double away = 0;  // from the box, squared
   for (int k = 0; k < 3; ++k) {
-    const double low = lower_[k] - grow_, x = low + Uniform(bits[k]) * (upper_[k] + grow_ - low);
+    const double low = lower_[k] - grow_, x = low + UnitReal(bits[k]) * (upper_[k] + grow_ - low);
     const double beyond = std::max({lower_[k] - x, x - upper_[k], 0.0});
     disc->centre[k] = x;
     away += beyond * beyond;
@@ -159,11 +156,11 @@ bool DiscSource::Draw(std::uint64_t n, Disc *disc) const {
   if (away > disc->radius * disc->radius) return false;
   std::copy_n(mean_, 3, disc->normal);
   if (law_.fisher < 0) return true;
-  bits = r123::Philox4x64()({{n, 1, 0, 0}}, {{seed_, stream_}});
-  const double u = Uniform(bits[0]), kappa = law_.fisher;
+  bits = Random(n, 1, seed_, stream_);
+  const double u = UnitReal(bits[0]), kappa = law_.fisher;
   const double gap =  // 1 - cos t
       kappa < 1e-12 ? 2 * u : std::min(2.0, -std::log1p(u * std::expm1(-2 * kappa)) / kappa);
-  const double sine = std::sqrt(std::max(0.0, gap * (2 - gap))), phi = 2 * kPi * Uniform(bits[1]);
+  const double sine = std::sqrt(std::max(0.0, gap * (2 - gap))), phi = 2 * kPi * UnitReal(bits[1]);
   const double c = sine * std::cos(phi), s = sine * std::sin(phi);
   for (int k = 0; k < 3; ++k) disc->normal[k] = (1 - gap) * mean_[k] + c * e_[0][k] + s * e_[1][k];
   const double length = std::copysign(std::sqrt(Dot(disc->normal, disc->normal)), disc->normal[2]);

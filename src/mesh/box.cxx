@@ -1,6 +1,7 @@
 // A box of hexahedra, wedges (two a cell) or tetrahedra (six a cell). Vertices and cells count along x, then y, then z.
 #include "core/error.hpp"
 #include "core/options.hpp"
+#include "core/random.hpp"
 #include "mesh/source.hpp"
 
 #include <Random123/philox.h>
@@ -116,7 +117,7 @@ PetscErrorCode PlaceVertices(const Box &box, DM dm) {
     r123::Philox4x64::ctr_type bits = {{static_cast<std::uint64_t>(v), 0, 0, 0}};
     if (inside) bits = r123::Philox4x64()(bits, key);
     for (int d = 0; d < 3; ++d) {
-      const double shift = inside ? box.jitter * (2 * (static_cast<double>(bits[d] >> 11) * 0x1p-53) - 1) : 0;
+      const double shift = inside ? box.jitter * (2 * (UnitReal(bits[d])) - 1) : 0;
       const double n = static_cast<double>(box.cells[d]);
       x[3 * v + d] = box.origin[d] + box.size[d] * ((static_cast<double>(at[d]) + shift) / n);
     }

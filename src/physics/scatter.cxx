@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/options.hpp"
+#include "core/random.hpp"
 
 #include <Random123/philox.h>
 
@@ -55,13 +56,6 @@ PetscErrorCode ReadScatter(Options &options, const OptionKey &key, Scatter *scat
   CdemCheck(scatter->kind != Scatter::kUniform || scatter->spread <= 1, options.comm(),
             "%s is '%s'; a half width above 1 would make negative values", spelled.c_str(), text.c_str());
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/// FNV-1a: the same number for the same key on every machine.
-static std::uint64_t KeyNumber(const char *key) {
-  std::uint64_t h = 0xcbf29ce484222325ULL;
-  for (; *key; ++key) h = (h ^ static_cast<unsigned char>(*key)) * 0x100000001b3ULL;
-  return h;
 }
 
 double ScatteredValue(const Scatter &scatter, const Property &property, double mean, double size_factor,

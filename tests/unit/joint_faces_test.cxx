@@ -111,7 +111,7 @@ TEST(JointSides, ComeApart) {
 
     ASSERT_EQ(s->Solve(), 0);
     const double *u, *v;
-    const std::vector<SpringHistory> *history;
+    const Histories *history;
     ASSERT_EQ(s->backend().Download(&u, &v, &history), 0);
     double most = 0, least = 1;  // over the pull
     for (PetscInt i = 0; i < s->nodes().n_owned; ++i) {
