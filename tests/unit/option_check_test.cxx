@@ -31,7 +31,7 @@ TEST_F(OptionCheckTest, UnknownOnesAreNamedWithTheNearest) {
 }
 
 TEST_F(OptionCheckTest, UnknownFamiliesAreErrors) {
-  for (const char *name : {"-joints", "-joint_j_dip", "-stage_a_solve", "-flow", "-relax_ratio", "-checkpoint_interval",
+  for (const char *name : {"-stage_a_solve", "-flow", "-relax_ratio", "-checkpoint_interval",
                            "-restart", "-damping_local", "-block_residual_cohesion", "-boundary_quiet", "-precision"}) {
     ASSERT_EQ(PetscOptionsSetValue(nullptr, name, "1"), PETSC_SUCCESS);
     ExpectLeftRefused({(std::string("unknown option ") + name).c_str()});
