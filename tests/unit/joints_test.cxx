@@ -237,6 +237,10 @@ class JointsOptions : public OptionsTest {
         Make(PETSC_COMM_WORLD, "-mesh box -mesh_box_cells 8,8,8 -mesh_box_size 20,20,20 -mesh_box_jitter 0.2", &mesh),
         0);
   }
+  void TearDown() override {
+    std::remove(path_.c_str());
+    OptionsTest::TearDown();
+  }
   PetscErrorCode Run() { return CreateJointSets(mesh, options_, &sets, &faces, &remarks); }
   void Refused(const std::string &options, const std::vector<const char *> &words) {
     ASSERT_EQ(PetscOptionsClear(nullptr), 0);
@@ -246,10 +250,10 @@ class JointsOptions : public OptionsTest {
   }
   /// [in] lines: text of the file.
   std::string File(const std::string &lines) {
-    const std::string path = testing::TempDir() + "cdem_joints_" + std::to_string(getpid()) + ".txt";
-    std::ofstream(path) << lines;
-    return path;
+    std::ofstream(path_) << lines;
+    return path_;
   }
+  const std::string path_ = testing::TempDir() + "cdem_joints_" + std::to_string(getpid()) + ".txt";
   Mesh mesh;
   std::vector<JointSet> sets;
   std::vector<FaceSet> faces;
@@ -334,7 +338,6 @@ TEST_F(JointsOptions, FileIsReadAndClipped) {
   EXPECT_NEAR(sets[0].disc_area, kPi * (6.25 + 0.5625 + 0.25), 1e-9);
   const std::string table = DiscTable(sets);
   EXPECT_EQ(table.rfind("set,x,y,z,dip,dip_direction,diameter,area_inside\na,10,10,10,", 0), 0u);
-  std::remove(path.c_str());
 }
 
 TEST_F(JointsOptions, BadFilesAreRefused) {
@@ -355,7 +358,6 @@ TEST_F(JointsOptions, BadFilesAreRefused) {
     words.push_back(path.c_str());
     words.push_back("-joint_a_file");
     Refused("-joints a -joint_a_file " + path, words);
-    std::remove(path.c_str());
   }
   Refused("-joints a -joint_a_file " + File("# nothing\n"), {"holds no line"});
   Refused("-joints a -joint_a_file " + File(""), {"cannot be read or is empty"});
