@@ -131,7 +131,7 @@ NodeView DeviceTables::Nodes(double *u, double *v, const double *schedule, doubl
   return n;
 }
 
-ElementView DeviceTables::View(const Elements &e, const double *u, const double *v, double beta) const {
+ElementView DeviceTables::View(const Elements &e, const double *u, const double *v, double beta, bool early) const {
   return {e.host->n,
           e.host->n_pad,
           e.node.get(),
@@ -141,6 +141,7 @@ ElementView DeviceTables::View(const Elements &e, const double *u, const double 
           u,
           v,
           beta,
+          early,
           slots_.get() + 3 * e.host->corner_start,
           e.counted.get(),
           e.state.get(),
@@ -148,7 +149,7 @@ ElementView DeviceTables::View(const Elements &e, const double *u, const double 
           e.broken_time.get()};
 }
 
-SpringView DeviceTables::View(const Springs &s, const double *u, const double *v, double beta) const {
+SpringView DeviceTables::View(const Springs &s, const double *u, const double *v, double beta, bool early) const {
   return {s.host->n,
           s.host->n_pad,
           s.a.get(),
@@ -162,6 +163,7 @@ SpringView DeviceTables::View(const Springs &s, const double *u, const double *v
           u,
           v,
           beta,
+          early,
           s.state.get(),
           s.slip.get(),
           slots_.get() + 3 * s.host->force_start,

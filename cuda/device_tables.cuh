@@ -46,9 +46,9 @@ class DeviceTables {
   PetscErrorCode BuildSlotLists();
   PetscErrorCode LaunchElements(const NodeView &nodes, BatchState *batch, const LaunchArgs &launch);
   PetscErrorCode LaunchSprings(const NodeView &nodes, const LaunchArgs &launch);
-  ElementView View(const Elements &e, const double *u, const double *v, double beta) const;
-  SpringView View(const Springs &s, const double *u, const double *v, double beta) const;
-  SlotLists Lists() const { return {list_start_.get(), list_entry_.get(), slots_.get()}; }
+  ElementView View(const Elements &e, const double *u, const double *v, double beta, bool early = false) const;
+  SpringView View(const Springs &s, const double *u, const double *v, double beta, bool early = false) const;
+  SlotLists Lists(bool early = false) const { return {list_start_.get(), list_entry_.get(), slots_.get(), early}; }
   /// Sums columns of partial_ rows on the host, in order.
   PetscErrorCode AddPartial(int blocks, int columns, double *sums, int maxima) const;
 

@@ -13,6 +13,7 @@ struct ElementView {
   const int *node, *material;
   const double *param, *x, *u, *v;
   double beta;
+  bool early;                   ///< see WaitForPrevious
   double *slot;                 ///< first slot of this table
   const std::uint8_t *counted;  ///< for observations
   std::uint8_t *state;          ///< of laws with history: bits of ElementState
@@ -33,7 +34,7 @@ __device__ __forceinline__ void ElementThread(const ElementView &t, int e, const
   const double *row = t.param + kMaxParams * t.material[e];
 #pragma unroll
   for (int p = 0; p < Law::kParams; ++p) param[p] = row[p];
-  WaitForPrevious();
+  WaitForPrevious(t.early);
 #pragma unroll
   for (int a = 0; a < corners; ++a) {
     const long long node = 3ll * t.node[static_cast<long long>(a) * t.n_pad + e];

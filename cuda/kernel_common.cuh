@@ -22,11 +22,14 @@ struct BatchState {
 };
 
 /// Waits for the kernel before, where this one was allowed to begin early; until then only constant data may be touched.
-/// Then lets the next one begin early too.
-__device__ __forceinline__ void WaitForPrevious() {
+/// Then lets the next one begin early too. [in] early: kernels of this step were launched so; in large scenes the wait
+/// of every block costs more than the overlap gains.
+__device__ __forceinline__ void WaitForPrevious(bool early) {
 #if __CUDA_ARCH__ >= 900
-  cudaGridDependencySynchronize();
-  cudaTriggerProgrammaticLaunchCompletion();
+  if (early) {
+    cudaGridDependencySynchronize();
+    cudaTriggerProgrammaticLaunchCompletion();
+  }
 #endif
 }
 

@@ -45,8 +45,8 @@ PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, BatchState *b
       using Form = decltype(form);
       using Law = decltype(law);
       auto kernel = beta != 0 ? ElementKernel<Form, Law, true> : ElementKernel<Form, Law, false>;
-      ierr = Launch(kernel, Blocks(e.host->n, launch.block), launch.block, launch, View(e, nodes.u, nodes.v, beta),
-                    batch, first);
+      ierr = Launch(kernel, Blocks(e.host->n, launch.block), launch.block, launch,
+                    View(e, nodes.u, nodes.v, beta, launch.overlap), batch, first);
     });
     PetscCall(ierr);
   }
@@ -61,7 +61,7 @@ PetscErrorCode DeviceTables::LaunchSprings(const NodeView &nodes, const LaunchAr
     JointLaws::Visit(s.host->law, [&](auto law) {
       using Law = decltype(law);
       auto kernel = beta != 0 ? SpringKernel<Law, true> : SpringKernel<Law, false>;
-      ierr = Launch(kernel, Blocks(s.host->n, kBlock), kBlock, launch, View(s, nodes.u, nodes.v, beta));
+      ierr = Launch(kernel, Blocks(s.host->n, kBlock), kBlock, launch, View(s, nodes.u, nodes.v, beta, launch.overlap));
     });
     PetscCall(ierr);
   }
@@ -76,7 +76,8 @@ PetscErrorCode DeviceTables::LaunchStep(const NodeView &nodes, const StepArgs &a
   if (t_->n_owned == 0) PetscFunctionReturn(PETSC_SUCCESS);
   auto kernel = t_->records.n > 0 ? NodeKernel<true> : NodeKernel<false>;
   PetscCall(Run(events.nodes, launch, [&] {
-    return Launch(kernel, Blocks(t_->n_owned, kNodeBlock), kNodeBlock, launch, nodes, args, Lists(), batch);
+    return Launch(kernel, Blocks(t_->n_owned, kNodeBlock), kNodeBlock, launch, nodes, args, Lists(launch.overlap),
+                  batch);
   }));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -11,6 +11,7 @@ namespace cdem {
 struct SlotLists {
   const int *start, *entry;
   const double *slot;
+  bool early;  ///< see WaitForPrevious
 };
 
 /// The head of a node's list, read early: it is constant, while the slots are not.
@@ -49,7 +50,7 @@ __global__ void __launch_bounds__(kNodeBlock)
   if (i >= n.n_owned) return;
   double f[3];
   const SlotHead head(lists, i);
-  WaitForPrevious();
+  WaitForPrevious(lists.early);
   SumSlots(lists, head, f);
   const int step = batch->step;
   if (i == 0) batch->next = step + 1;

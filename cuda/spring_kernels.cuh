@@ -12,6 +12,7 @@ struct SpringView {
   const int *a, *b, *joint;
   const double *normal, *area, *kn, *ks, *param, *u, *v;
   double beta;
+  bool early;  ///< see WaitForPrevious
   std::uint8_t *state;
   double *slip, *slot;
   const std::uint8_t *counted;
@@ -24,7 +25,7 @@ __device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i,
   Spring<double> s;
   double param[kMaxParams];
   const long long a = 3ll * t.a[i], b = 3ll * t.b[i];
-  WaitForPrevious();
+  WaitForPrevious(t.early);
   std::uint8_t state = 0;
 #pragma unroll
   for (int k = 0; k < 3; ++k) {
