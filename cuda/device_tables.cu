@@ -43,7 +43,7 @@ PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells) {
       PetscCall(s.joint.Upload(t.joint));
       PetscCall(s.area.Upload(t.area));
       PetscCall(s.state.Upload(t.state));
-      PetscCall(s.slip.Allocate(3 * static_cast<std::size_t>(t.n_pad)));
+      PetscCall(s.history.Allocate(static_cast<std::size_t>(t.n_state) * t.n_pad));
     }
     springs_.push_back(std::move(s));
   }
@@ -106,7 +106,7 @@ std::size_t DeviceTables::Bytes() const {
   add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_,
       load_start_, load_table_, watch_, kind_, value_, load_, partial_, undamped_);
   for (const Elements &e : elements_) add(e.node, e.material, e.counted, e.state, e.value, e.broken_time);
-  for (const Springs &s : springs_) add(s.a, s.b, s.joint, s.normal, s.area, s.kn, s.ks, s.slip, s.state, s.counted);
+  for (const Springs &s : springs_) add(s.a, s.b, s.joint, s.normal, s.area, s.kn, s.ks, s.history, s.state, s.counted);
   return bytes;
 }
 
@@ -165,7 +165,7 @@ SpringView DeviceTables::View(const Springs &s, const double *u, const double *v
           beta,
           early,
           s.state.get(),
-          s.slip.get(),
+          s.history.get(),
           slots_.get() + 3 * s.host->force_start,
           s.counted.get()};
 }
@@ -181,7 +181,7 @@ PetscErrorCode DeviceTables::DownloadHistories(Histories *histories) const {
   histories->springs.resize(springs_.size());
   for (std::size_t g = 0; g < springs_.size(); ++g) {
     PetscCall(springs_[g].state.Download(&histories->springs[g].state));
-    PetscCall(springs_[g].slip.Download(&histories->springs[g].slip));
+    PetscCall(springs_[g].history.Download(&histories->springs[g].values));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -40,7 +40,7 @@ class DeviceTables {
   struct Springs {
     const SpringTable *host;
     DeviceArray<int> a, b, joint;
-    DeviceArray<double> normal, area, kn, ks, slip;
+    DeviceArray<double> normal, area, kn, ks, history;
     DeviceArray<std::uint8_t> state, counted;
   };
   PetscErrorCode BuildSlotLists();

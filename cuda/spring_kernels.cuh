@@ -14,15 +14,14 @@ struct SpringView {
   double beta;
   bool early;  ///< see WaitForPrevious
   std::uint8_t *state;
-  double *slip, *slot;
+  double *history, *slot;
   const std::uint8_t *counted;
 };
 
-/// One spring: writes its force to its slot; commits state and slip with kCommit. Returns the state it would leave.
+/// One spring: writes its force to its slot; commits its history with kCommit. Returns the state it would leave.
 template <class Law, bool kBeta, bool kCommit>
-__device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i, double (&normal)[3],
+__device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i, Spring<double> &s,
                                                      double (&force)[3]) {
-  Spring<double> s;
   double param[kMaxParams];
   const long long a = 3ll * t.a[i], b = 3ll * t.b[i];
   WaitForPrevious(t.early);
@@ -31,11 +30,10 @@ __device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i,
   for (int k = 0; k < 3; ++k) {
     s.d[k] = t.u[b + k] - t.u[a + k];
     s.beta_rate[k] = kBeta ? t.beta * (t.v[b + k] - t.v[a + k]) : 0.0;
-    s.normal[k] = normal[k] = t.normal[static_cast<long long>(k) * t.n_pad + i];
+    s.normal[k] = t.normal[static_cast<long long>(k) * t.n_pad + i];
   }
   s.kn = t.kn[i];
   s.ks = t.ks[i];
-  bool opens = false, slides = false;
   if constexpr (Law::kHistory) {
     s.area = t.area[i];
     const double *row = t.param + kMaxParams * t.joint[i];
@@ -46,17 +44,18 @@ __device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i,
     s.tension_lost = state & kTensionLost ? 1.0 : 0.0;
     s.cohesion_lost = state & kCohesionLost ? 1.0 : 0.0;
 #pragma unroll
-    for (int k = 0; k < 3; ++k) s.slip[k] = state ? t.slip[static_cast<long long>(k) * t.n_pad + i] : 0.0;
+    for (int k = 0; k < Law::kState; ++k)
+      s.history[k] = state ? t.history[static_cast<long long>(k) * t.n_pad + i] : 0.0;
   }
-  SpringForce<Law, kBeta>(s, force, &opens, &slides);
+  const Outcome<double> outcome = SpringForce<Law, kBeta>(s, force);
   std::uint8_t next = 0;
   if constexpr (Law::kHistory) {
-    next = NextState(state, opens, slides, param[Law::kKeepTension] != 0);
+    next = NextState(state, StateBits(outcome));
     if (kCommit) {
       if (next != state) t.state[i] = next;
-      if (opens || slides)
+      if (outcome.changed)
 #pragma unroll
-        for (int k = 0; k < 3; ++k) t.slip[static_cast<long long>(k) * t.n_pad + i] = s.slip[k];
+        for (int k = 0; k < Law::kState; ++k) t.history[static_cast<long long>(k) * t.n_pad + i] = s.history[k];
     }
   }
 #pragma unroll
@@ -68,8 +67,9 @@ template <class Law, bool kBeta>
 __global__ void __launch_bounds__(kBlock) SpringKernel(SpringView t) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i >= t.n) return;
-  double normal[3], force[3];
-  SpringThread<Law, kBeta, true>(t, i, normal, force);
+  Spring<double> s;
+  double force[3];
+  SpringThread<Law, kBeta, true>(t, i, s, force);
 }
 
 template <class Law, bool kBeta>
@@ -77,10 +77,11 @@ __global__ void __launch_bounds__(kBlock) SpringObserveKernel(SpringView t, doub
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
   double value[kSpringSums] = {0, 0, 0, 0, 0};
   if (i < t.n) {
-    double normal[3], force[3];
-    const std::uint8_t next = SpringThread<Law, kBeta, false>(t, i, normal, force);
+    Spring<double> s;
+    double force[3];
+    const std::uint8_t next = SpringThread<Law, kBeta, false>(t, i, s, force);
     if (t.counted[i]) {
-      value[0] = SpringEnergy(normal, t.kn[i], t.ks[i], force);
+      value[0] = Law::Energy(s, force);
       for (int k = 0; k < 3; ++k) value[1] += fabs(force[k]);
       value[2] = 3;
       value[3] = next & kCohesionLost ? 1 : 0;

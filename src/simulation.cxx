@@ -98,6 +98,7 @@ PetscErrorCode Simulation::BuildModel() {
   Phase("tables");
   PetscCall(PetscLogEventBegin(events.tables, nullptr, nullptr, nullptr, nullptr));
   PetscCall(BuildTables(mesh_, nodes_, face_interface_, materials_, joints_, &tables_));
+  PetscCall(CheckJoints(mesh_, interface_names_, materials_, joints_, tables_, &remarks_));
   tables_.n_tables = static_cast<int>(time_tables_.size());
   PetscCall(BuildRecords(mesh_, nodes_, boundaries_, histories_, &tables_));
   PetscCall(PetscLogEventEnd(events.tables, nullptr, nullptr, nullptr, nullptr));

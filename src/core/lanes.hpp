@@ -17,6 +17,7 @@ CDEM_HD double LoadAs<double>(const double *p) {
   return *p;
 }
 CDEM_HD void StoreAs(double *p, double v) { *p = v; }
+CDEM_HD int Bits(bool mask, int bits) { return mask ? bits : 0; }
 
 #if !defined(__CUDACC__)
 
@@ -46,6 +47,7 @@ CDEM_HD Lanes LoadAs<Lanes>(const double *p) {
   return r;
 }
 CDEM_HD void StoreAs(double *p, Lanes v) { __builtin_memcpy(p, &v, sizeof v); }
+CDEM_HD LaneMask Bits(LaneMask mask, int bits) { return mask & bits; }
 
 #endif
 

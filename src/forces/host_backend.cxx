@@ -90,7 +90,7 @@ class HostBackend final : public Backend {
     std::size_t bytes = 8 * (3 * u_.size() + t_.x.size() + 2 * t_.mass.size());
     for (const ElementTable &e : t_.elements) bytes += 4 * (e.node.size() + e.material.size());
     for (const SpringTable &s : t_.springs) bytes += static_cast<std::size_t>(s.n_pad) * (4 * 3 + 8 * 6);
-    for (const SpringHistory &h : history_.springs) bytes += h.state.size() + 8 * h.slip.size();
+    for (const SpringHistory &h : history_.springs) bytes += h.state.size() + 8 * h.values.size();
     for (const ElementHistories &h : history_.elements)
       bytes += h.state.size() + 8 * (h.value.size() + h.broken_time.size());
     return bytes;

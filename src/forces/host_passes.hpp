@@ -5,10 +5,10 @@
 
 namespace cdem {
 
-/// What springs with history remember, per spring table: state [n_pad], slip [3][n_pad] m.
+/// What springs with history remember, per spring table: state [n_pad], and the law's own numbers [kState][n_pad].
 struct SpringHistory {
   std::vector<std::uint8_t> state;
-  std::vector<double> slip;
+  std::vector<double> values;
 };
 
 /// What elements of laws with history remember, per element table.
@@ -49,7 +49,7 @@ void HostElements(const Tables &tables, const double *u, const double *v, double
 void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, const double *v, double beta,
                          const std::vector<ElementHistories> &history, double *f, ElementResults *results);
 
-/// Adds the forces of all springs to f and commits state and slip.
+/// Adds the forces of all springs to f and commits their histories.
 void HostSprings(const Tables &tables, const double *u, const double *v, double beta,
                  std::vector<SpringHistory> &history, double *f);
 /// The same without committing anything.

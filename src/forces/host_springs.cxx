@@ -8,6 +8,17 @@ namespace cdem {
 
 namespace {
 
+/// What the energy of a spring is made of, for one of the lanes.
+template <class Law>
+Spring<double> OneLane(const Spring<Lanes> &s, int l) {
+  Spring<double> one{};
+  for (int k = 0; k < 3; ++k) one.normal[k] = s.normal[k][l], one.d[k] = s.d[k][l];
+  one.kn = s.kn[l];
+  one.ks = s.ks[l];
+  for (int k = 0; k < Law::kState; ++k) one.history[k] = s.history[k][l];
+  return one;
+}
+
 template <class Law, bool kBeta, bool kCommit>
 void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, const double *v, double beta,
                 SpringHistory *history, double *f, SpringResults *results, int index) {
@@ -26,7 +37,6 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
     for (int k = 0; k < 3; ++k) s.normal[k] = LoadAs<Lanes>(&t.normal[k * stride + i]);
     s.kn = LoadAs<Lanes>(&t.kn[i]);
     s.ks = LoadAs<Lanes>(&t.ks[i]);
-    LaneMask opens{}, slides{};
     if constexpr (Law::kHistory) {
       s.area = LoadAs<Lanes>(&t.area[i]);
       LoadParams(tables.joint_param, &t.joint[i], Law::kParams, param);
@@ -38,18 +48,18 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
       }
       s.tension_lost = LoadAs<Lanes>(tension_lost);
       s.cohesion_lost = LoadAs<Lanes>(cohesion_lost);
-      for (int k = 0; k < 3; ++k) s.slip[k] = LoadAs<Lanes>(&history->slip[k * stride + i]);
+      for (int k = 0; k < Law::kState; ++k) s.history[k] = LoadAs<Lanes>(&history->values[k * stride + i]);
     }
-    SpringForce<Law, kBeta>(s, force, &opens, &slides);
+    const Outcome<Lanes> outcome = SpringForce<Law, kBeta>(s, force);
 
     std::uint8_t next[kLanes] = {};
     if constexpr (Law::kHistory) {
-      for (int l = 0; l < kLanes; ++l)
-        next[l] = NextState(history->state[i + l], opens[l], slides[l], param[Law::kKeepTension][l] != 0);
+      const LaneMask bits = StateBits(outcome);
+      for (int l = 0; l < kLanes; ++l) next[l] = NextState(history->state[i + l], bits[l]);
       if (kCommit) {
         std::copy_n(next, kLanes, &history->state[i]);
-        if (Any(opens | slides))
-          for (int k = 0; k < 3; ++k) StoreAs(&history->slip[k * stride + i], s.slip[k]);
+        if (Any(outcome.changed))
+          for (int k = 0; k < Law::kState; ++k) StoreAs(&history->values[k * stride + i], s.history[k]);
       }
     }
     alignas(sizeof(Lanes)) double out[3][kLanes];
@@ -65,8 +75,8 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
         for (int k = 0; k < 3; ++k) results->force[index][k * stride + i + l] = out[k][l];
       if (results->want_each) results->state[index][i + l] = next[l];
       if (!t.counted[i + l]) continue;
-      const double n[3] = {s.normal[0][l], s.normal[1][l], s.normal[2][l]}, one[3] = {out[0][l], out[1][l], out[2][l]};
-      results->energy += SpringEnergy(n, t.kn[i + l], t.ks[i + l], one);
+      const double one[3] = {out[0][l], out[1][l], out[2][l]};
+      results->energy += Law::Energy(OneLane<Law>(s, l), one);
       for (int k = 0; k < 3; ++k) results->force_sum += std::fabs(one[k]);
       results->force_count += 3;
       results->count += 1;
@@ -118,7 +128,7 @@ std::vector<SpringHistory> StartSprings(const Tables &tables) {
     const SpringTable &t = tables.springs[g];
     if (t.state.empty()) continue;
     history[g].state = t.state;
-    history[g].slip.assign(3 * static_cast<std::size_t>(t.n_pad), 0.0);
+    history[g].values.assign(static_cast<std::size_t>(t.n_state) * t.n_pad, 0.0);
   }
   return history;
 }

@@ -155,11 +155,7 @@ void FaceStiffness(const Mesh &mesh, const std::vector<Material> &materials, con
   double m0[kMaxParams], m1[kMaxParams];  // lambda and mu come first
   CellParams(mesh, materials, face.cell[0], m0);
   CellParams(mesh, materials, face.cell[1], m1);
-  double c0[3], c1[3], d2 = 0;
-  CellCentre(mesh, face.cell[0], c0);
-  CellCentre(mesh, face.cell[1], c1);
-  for (int k = 0; k < 3; ++k) d2 += (c1[k] - c0[k]) * (c1[k] - c0[k]);
-  const double b_over_h = joint.stiffness_factor / std::sqrt(d2);
+  const double b_over_h = joint.stiffness_factor / CentreDistance(mesh, face);
   if (*kn < 0) *kn = b_over_h * std::min(m0[0] + 2 * m0[1], m1[0] + 2 * m1[1]);
   if (*ks < 0) *ks = b_over_h * std::min(m0[1], m1[1]);
 }
@@ -213,6 +209,7 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
             normal[3 * static_cast<std::size_t>(std::min(i, t.n - 1)) + k];
     JointLaws::Visit(law, [&](auto l) {
       if (!decltype(l)::kHistory) return;
+      t.n_state = decltype(l)::kState;
       t.state.assign(t.n_pad, 0);
       for (int i = 0; i < t.n; ++i)
         if (joints[t.joint[i]].broken) t.state[i] = kTensionLost | kCohesionLost;
@@ -224,6 +221,14 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
 }
 
 }  // namespace
+
+double CentreDistance(const Mesh &mesh, const Face &face) {
+  double c0[3], c1[3], d2 = 0;
+  CellCentre(mesh, face.cell[0], c0);
+  CellCentre(mesh, face.cell[1], c1);
+  for (int k = 0; k < 3; ++k) d2 += (c1[k] - c0[k]) * (c1[k] - c0[k]);
+  return std::sqrt(d2);
+}
 
 PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
                            const std::vector<Material> &materials, const std::vector<Joint> &joints, Tables *tables) {

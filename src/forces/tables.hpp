@@ -30,6 +30,7 @@ struct ElementTable {
 /// those of the faces that this rank reports.
 struct SpringTable {
   int law = 0;
+  int n_state = 0;  ///< doubles of history a spring
   int n = 0, n_pad = 0;
   std::vector<int> a, b;              ///< [n_pad] local nodes
   std::vector<double> normal;         ///< [3][n_pad] from a's block to b's
@@ -82,6 +83,9 @@ struct Tables {
 /// Errors: more nodes or corners on a rank than a 32-bit count holds; a node without mass.
 PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
                            const std::vector<Material> &materials, const std::vector<Joint> &joints, Tables *tables);
+
+/// Distance of the centres of the two cells of an inner face [m].
+double CentreDistance(const Mesh &mesh, const Face &face);
 
 /// Local nodes at corner j of a face, on the side of cell[side].
 PetscInt FaceNode(const Mesh &mesh, const Nodes &nodes, const Face &face, int j, int side);

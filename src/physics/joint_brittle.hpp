@@ -1,47 +1,55 @@
 // Brittle springs (Eq. 3 of the method's paper): linear until the tensile strength or Mohr-Coulomb's cap is reached, then
-// an open or rubbing crack that carries again when it closes.
+// an open or rubbing crack that carries again when it closes. A crack that dilates rides up as it slips.
 #pragma once
-#include "core/lanes.hpp"
-#include "physics/law.hpp"
+#include "physics/joint_strength.hpp"
+#include "physics/spring.hpp"
 
 namespace cdem {
 
-/// Bits of a spring's state, in history laws.
-enum SpringState { kTensionLost = 1, kCohesionLost = 2, kSliding = 4, kOpen = 8 };
-
-struct JointBrittle : JointLawDefaults {
+template <bool kDilates>
+struct BrittleLaw : JointLawDefaults {
   static constexpr const char *kName = "brittle";
-  enum { kTension, kCohesion, kTanPhi, kKeepTension, kParams };  ///< Pa, Pa, -, 0 or 1
+  enum { kTension, kCohesion, kTanPhi, kKeepTension, kPlainParams };  ///< Pa, Pa, -, 0 or 1
+  enum { kTanPsi = kPlainParams, kDilationSlip, kDilatingParams };    ///< -, m
+  static constexpr int kParams = kDilates ? kDilatingParams : kPlainParams;
+  static constexpr bool kMayKeepTension = true;
 
-  /// Strengths of one interface; tension above cohesion / tan(phi) has been cut to it at set-up.
-  static constexpr std::array<Property, 3> kProperties = {
+  /// History: slip s [3], zero while intact; with dilation the opening g that it made, and the length of its path [m].
+  enum { kSlip = 0, kGap = 3, kPath = 4 };
+  static constexpr int kState = kDilates ? 5 : 3;
+
+  static constexpr std::array<Property, 5> kProperties = {
       {{"tension", "Pa", 0, kPropertyInf, kPropertyClosed, "tensile strength"},
        {"cohesion", "Pa", 0, kPropertyInf, kPropertyClosed, "cohesion"},
-       {"friction", "degrees", 0, 89.9, kPropertyClosed, "angle of friction"}}};
+       {"friction", "degrees", 0, 89.9, kPropertyClosed, "angle of friction"},
+       kDilationProperties[0],
+       kDilationProperties[1]}};
+  static bool Serves(const double *property) { return (property[kStrengthDilation] > 0) == kDilates; }
+  static std::string Check(const double *property) { return CheckDilation(property); }
+  static std::string Adjust(double *property) { return CutTension(property); }
 
   static void Derive(const double *property, double *param) {
-    const double degree = 3.14159265358979323846 / 180;
-    param[kTension] = property[0];
-    param[kCohesion] = property[1];
-    param[kTanPhi] = std::tan(property[2] * degree);
+    param[kTension] = property[kStrengthTension];
+    param[kCohesion] = property[kStrengthCohesion];
+    param[kTanPhi] = TanOfDegrees(property[kStrengthFriction]);
     param[kKeepTension] = 0;
+    if (!kDilates) return;
+    param[kTanPsi] = TanOfDegrees(property[kStrengthDilation]);
+    param[kDilationSlip] = std::min(property[kStrengthDilationSlip], 1e30);  // products with it stay numbers
   }
 
-  /// What a spring does in one evaluation: where the trial force left the elastic range.
-  template <class T>
-  struct Outcome {
-    MaskOf<T> open, slides;
-  };
-
-  /// Force on node b [N] for the relative displacement d = u_b - u_a and its rate (beta damping; zero without).
-  /// [in] tension, cohesion: what is left of T = sigma_t A and C = c A [N]; slip: s [m], zero while intact.
-  /// [in,out] slip: follows an opening or sliding crack (theory: s = d_s + F_s / K_s).
+  /// Force on node b [N]; the slip follows an opening or sliding crack (theory: s = d_s + F_s / K_s).
   template <bool kBeta, class T>
-  static CDEM_HD Outcome<T> Force(const T normal[3], T kn, T ks, T tension, T cohesion, T tan_phi, const T d[3],
-                                  const T beta_rate[3], T slip[3], T force[3]) {
+  static CDEM_HD Outcome<T> Force(Spring<T> &s, T force[3]) {
     const T zero = T{};
-    T along = Dot(normal, d);
-    T pressing = -(kn * along);  // F_n, positive in compression
+    const T *normal = s.normal, *d = s.d;
+    const T kn = s.kn, ks = s.ks, tan_phi = s.param[kTanPhi];
+    T *slip = s.history + kSlip;
+    T tension = s.param[kTension] * s.area * (1.0 - s.tension_lost);  // what is left of T and C [N]
+    T cohesion = s.param[kCohesion] * s.area * (1.0 - s.cohesion_lost);
+    T along = Dot(normal, d), opening = along;
+    if constexpr (kDilates) opening = along - s.history[kGap];
+    T pressing = -(kn * opening);  // F_n, positive in compression
     T shear[3];
     CDEM_UNROLL for (int k = 0; k < 3; ++k) shear[k] = -(ks * (d[k] - along * normal[k] - slip[k]));
     T shear2 = Dot(shear, shear);
@@ -49,10 +57,11 @@ struct JointBrittle : JointLawDefaults {
     cap = cap > zero ? cap : zero;
     Outcome<T> out;
     // A spring that no force presses or pulls stays as it is, whatever its strength.
-    out.open = (-pressing >= tension) & (along > zero);
+    out.open = (-pressing >= tension) & (opening > zero);
     out.slides = (shear2 > cap * cap) & !out.open;
     if (Any(out.slides)) {
       T size = Sqrt(shear2);
+      if constexpr (kDilates) cap = Ride(s, size, cohesion, out.slides, &pressing);
       T scale = cap / (size > zero ? size : size + 1.0);
       CDEM_UNROLL for (int k = 0; k < 3; ++k) shear[k] = out.slides ? shear[k] * scale : shear[k];
     }
@@ -68,19 +77,43 @@ struct JointBrittle : JointLawDefaults {
     }
     if (kBeta) {
       // Viscous part beta K d': none while open, no shear part while sliding, and a crack never pulls through it.
-      T rate = Dot(normal, beta_rate);
+      T rate = Dot(normal, s.beta_rate);
       T total = pressing - kn * rate;
       MaskOf<T> cracked = tension <= zero;
       total = (cracked & (total < zero)) ? zero : total;
       CDEM_UNROLL for (int k = 0; k < 3; ++k) {
-        T viscous = ks * (beta_rate[k] - rate * normal[k]);
+        T viscous = ks * (s.beta_rate[k] - rate * normal[k]);
         shear[k] = (out.open | out.slides) ? shear[k] : shear[k] - viscous;
       }
       pressing = out.open ? zero : total;
     }
     CDEM_UNROLL for (int k = 0; k < 3; ++k) force[k] = pressing * normal[k] + shear[k];
+    out.changed = out.cohesion_lost = out.open | out.slides;
+    out.tension_lost = out.open | (out.slides & !(s.param[kKeepTension] > zero));
     return out;
   }
+
+  /// Slip with dilation: of the length that brings the shear force from its trial size to the cap, which grows on the
+  /// way as the crack rides up. Returns that cap. The balance falls with the length and is straight but for the end of
+  /// the dilation (spent) and for a cap of 0 (the longest slip there can be): so each is told by its sign there.
+  template <class T>
+  static CDEM_HD T Ride(Spring<T> &s, T size, T cohesion, MaskOf<T> slides, T *pressing) {
+    const T zero = T{}, tan_phi = s.param[kTanPhi], push = s.kn * s.param[kTanPsi];
+    T grip = push * tan_phi, rest = Larger(s.param[kDilationSlip] - s.history[kPath], zero);
+    T excess = size - (*pressing * tan_phi + cohesion);
+    MaskOf<T> spent = excess > (s.ks + grip) * rest;
+    T length = (excess - (spent ? grip * rest : zero)) / (s.ks + (spent ? zero : grip));
+    length = Smaller(length, size / s.ks);
+    length = slides ? length : zero;
+    T rides = Smaller(length, rest);
+    *pressing = *pressing + push * rides;
+    s.history[kGap] = s.history[kGap] + s.param[kTanPsi] * rides;
+    s.history[kPath] = s.history[kPath] + length;
+    return Larger(*pressing * tan_phi + cohesion, zero);
+  }
 };
+
+using JointBrittle = BrittleLaw<false>;
+using JointBrittleDilating = BrittleLaw<true>;
 
 }  // namespace cdem

@@ -7,7 +7,7 @@ namespace cdem {
 struct JointElastic : JointLawDefaults {
   static constexpr const char *kName = "elastic";
   static constexpr bool kLinear = true;
-  static constexpr bool kHistory = false;  ///< no state byte, no slip
+  static constexpr bool kHistory = false;
   enum { kParams };
   static constexpr std::array<Property, 0> kProperties = {};
   static void Derive(const double *, double *) {}

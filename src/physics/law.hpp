@@ -46,11 +46,31 @@ struct BlockLawDefaults {
   static std::string Check(const double *) { return {}; }
 };
 
-/// What an interface law is unless it says otherwise.
+inline constexpr int kMaxSpringState = 8;  ///< doubles of history an interface law may keep per spring
+
+/// What an interface law is unless it says otherwise. Laws may share a name (and then have the same properties): a scene
+/// gets the first of them that serves its properties.
 struct JointLawDefaults {
   static constexpr bool kLinear = false;
-  static constexpr bool kHistory = true;  ///< has a state byte and a slip per spring
+  static constexpr bool kHistory = true;          ///< has a state byte a spring
+  static constexpr int kState = 0;                ///< doubles of history a spring; all zero at the start
+  static constexpr bool kMayKeepTension = false;  ///< asks for keep_tension, its parameter kKeepTension
+  static bool Serves(const double *) { return true; }
+  /// What is wrong with a combination of properties, or an empty string.
   static std::string Check(const double *) { return {}; }
+  /// Changes properties that contradict each other; what was changed, or an empty string.
+  static std::string Adjust(double *) { return {}; }
+  /// What is wrong with the properties on a face of that stiffness [Pa/m], or an empty string.
+  static std::string CheckFace(const double *, double, double) { return {}; }
+  /// The largest cells beside the interface that resolve its failure [m]. [in] young: of the blocks [Pa].
+  static double LargestCell(const double *, double) { return kPropertyInf; }
+  /// Energy stored in a spring after an evaluation that gave this force: F_n^2 / 2 K_n + F_s^2 / 2 K_s [J].
+  template <class Spring, class T>
+  static CDEM_HD T Energy(const Spring &s, const T force[3]) {
+    T along = Dot(s.normal, force);
+    T shear2 = Dot(force, force) - along * along;
+    return 0.5 * (along * along / s.kn + shear2 / s.ks);
+  }
 };
 
 template <class... Laws>
@@ -63,14 +83,24 @@ struct LawList {
     int i = 0;
     ((i++ == law ? (void)f(Laws{}) : (void)0), ...);
   }
+  /// The first law of that name, -1 if there is none.
   static int Find(const std::string &name) {
     int found = -1, i = 0;
-    ((found = name == Laws::kName ? i : found, ++i), ...);
+    ((found = found < 0 && name == Laws::kName ? i : found, ++i), ...);
     return found;
+  }
+  /// The first law of the same name that serves these properties.
+  static int Choose(int law, const double *property) {
+    std::string name;
+    Visit(law, [&](auto l) { name = decltype(l)::kName; });
+    int found = -1, i = 0;
+    ((found = found < 0 && name == Laws::kName && Laws::Serves(property) ? i : found, ++i), ...);
+    return found < 0 ? law : found;
   }
   static std::string Names() {
     std::string all;
-    ((all += std::string(all.empty() ? "" : ", ") + Laws::kName), ...);
+    int i = 0;
+    ((all += Find(Laws::kName) == i++ ? std::string(all.empty() ? "" : ", ") + Laws::kName : std::string()), ...);
     return all;
   }
 };

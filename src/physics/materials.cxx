@@ -120,6 +120,27 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/// What an interface has besides properties, and its parameters.
+template <class Law>
+static PetscErrorCode FinishJoint(Options &options, const std::string &name, Joint *joint,
+                                  std::vector<std::string> *remarks) {
+  PetscFunctionBeginUser;
+  const std::string adjusted = Law::Adjust(joint->property);
+  if (!adjusted.empty()) remarks->push_back("interface " + name + ": " + adjusted);
+  Law::Derive(joint->property, joint->param);
+  if constexpr (Law::kHistory) {
+    std::string initial = "intact";
+    PetscCall(options.Word({"interface", name, "initial"}, &initial));
+    joint->broken = initial == "broken";
+  }
+  if constexpr (Law::kMayKeepTension) {
+    bool keep = false;
+    PetscCall(options.Flag({"interface", name, "keep_tension"}, &keep));
+    joint->param[Law::kKeepTension] = keep;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &names, std::vector<Joint> *joints,
                           std::vector<std::string> *remarks) {
   PetscFunctionBeginUser;
@@ -140,22 +161,9 @@ PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &name
     JointLaws::Visit(joint.law,
                      [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "interface", name, joint.property); });
     PetscCall(ierr);
-    DeriveJoint(joint.law, joint.property, joint.param);
-    if (joint.law == JointLaws::Find(JointBrittle::kName)) {
-      std::string initial = "intact";
-      bool keep = false;
-      PetscCall(options.Word({"interface", name, "initial"}, &initial));
-      PetscCall(options.Flag({"interface", name, "keep_tension"}, &keep));
-      joint.broken = initial == "broken";
-      joint.param[JointBrittle::kKeepTension] = keep;
-      const double tan_phi = joint.param[JointBrittle::kTanPhi], c = joint.param[JointBrittle::kCohesion];
-      double &tension = joint.param[JointBrittle::kTension];
-      if (tension * tan_phi > c) {
-        tension = c / tan_phi;
-        remarks->push_back("interface " + name +
-                           ": tension cut to cohesion / tan(friction) = " + std::to_string(tension) + " Pa");
-      }
-    }
+    joint.law = JointLaws::Choose(joint.law, joint.property);
+    JointLaws::Visit(joint.law, [&](auto law) { ierr = FinishJoint<decltype(law)>(options, name, &joint, remarks); });
+    PetscCall(ierr);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -21,6 +21,7 @@ struct Material {
   ScatterSet scatter;
   double lambda() const { return param[0]; }  ///< elastic part [Pa]
   double mu() const { return param[1]; }
+  double young() const { return mu() * (3 * lambda() + 2 * mu()) / (lambda() + mu()); }
 };
 
 /// An interface's law and its numbers. Stiffness is per area [Pa/m]; negative: stiffness_factor times that of the blocks.

@@ -85,9 +85,9 @@ inline SceneResult RunScene(const std::string &options, MPI_Comm comm = PETSC_CO
     SpringHistory live;
     if (!t.state.empty()) {
       live.state.assign(history->springs[g].state.begin(), history->springs[g].state.begin() + t.n);
-      for (int k = 0; k < 3; ++k) {
-        const auto row = history->springs[g].slip.begin() + static_cast<std::ptrdiff_t>(k) * t.n_pad;
-        live.slip.insert(live.slip.end(), row, row + t.n);
+      for (int k = 0; k < t.n_state; ++k) {
+        const auto row = history->springs[g].values.begin() + static_cast<std::ptrdiff_t>(k) * t.n_pad;
+        live.values.insert(live.values.end(), row, row + t.n);
       }
     }
     result.history.push_back(live);
@@ -125,14 +125,22 @@ inline const char *const kBrick =
     "-mesh box -mesh_box_cells 10,10,10 -mesh_box_size 10,10,10 -block_young 1e10 -block_poisson 0.25 -block_density "
     "2500 "
     "-gravity 0,0,-9.81 -boundaries zmin -boundary_zmin_fix xyz";
-/// A fully jointed block that is struck and breaks: pulled and sheared at the top.
+/// A fully jointed block that is struck and breaks: pulled and sheared at the top. [in] law: elastic, brittle or
+/// softening; "brittle dilating" and "softening dilating" are pressed while they shear, so that they ride up.
 inline std::string BreakingScene(const std::string &shape, const std::string &law = "brittle") {
+  const std::string name = law.substr(0, law.find(' '));
+  std::string strength;
+  if (name != "elastic") strength = " -interface_j_tension 2e5 -interface_j_cohesion 4e5 -interface_j_friction 30";
+  if (name == "softening") strength += " -interface_j_gi 5 -interface_j_gii 20";
+  if (name != law) strength += " -interface_j_dilation 8 -interface_j_dilation_slip 5e-4";
   return "-mesh box -mesh_box_shape " + shape + " -mesh_box_cells 6,5,4 -mesh_box_size 6,5,4 -mesh_box_jitter 0.15" +
-         kRock + " -interfaces j -interface_j_on all -interface_j_law " + law +
-         (law == "brittle" ? " -interface_j_tension 2e5 -interface_j_cohesion 4e5 -interface_j_friction 30" : "") +
-         " -gravity 0,0,-9.81 -boundaries zmin,zmax -boundary_zmin_fix xyz -boundary_zmax_velocity 0.4,0.1,0.3 "
-         "-boundary_zmax_table pulse -tables pulse -table_pulse_type sine -table_pulse_frequency 40 -damping_beta 2e-5";
+         kRock + " -interfaces j -interface_j_on all -interface_j_law " + name + strength +
+         " -gravity 0,0,-9.81 -boundaries zmin,zmax -boundary_zmin_fix xyz -boundary_zmax_velocity " +
+         (name == law ? "0.4,0.1,0.3" : "0.8,0.2,-0.1") +
+         " -boundary_zmax_table pulse -tables pulse -table_pulse_type sine -table_pulse_frequency 40 -damping_beta "
+         "2e-5";
 }
+inline const char *const kBreakingLaws[] = {"brittle", "brittle dilating", "softening", "softening dilating"};
 
 /// A run on all ranks against the same run on each rank by itself: the same to the last bit.
 inline void ExpectRanksDoNotMatter(const std::string &options) {

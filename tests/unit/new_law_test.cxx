@@ -41,30 +41,36 @@ struct Slippery : JointLawDefaults {
   }
 };
 
-/// An interface law with history: it opens at its strength in tension, and never slides.
+/// An interface law with history: it opens at its strength in tension, never slides, and counts its evaluations since.
 struct Glue : JointLawDefaults {
   static constexpr const char *kName = "glue";
-  enum { kTension, kCohesion, kTanPhi, kKeepTension, kParams };
+  enum { kTension, kParams };
+  enum { kCount, kNumbers };
+  static constexpr int kState = kNumbers;
   static constexpr std::array<Property, 1> kProperties = {{{"strength", "Pa", 0, kPropertyInf, kPropertyOpen}}};
-  static void Derive(const double *property, double *param) {
-    param[kTension] = property[0];
-    param[kCohesion] = param[kTanPhi] = param[kKeepTension] = 0;
-  }
+  static void Derive(const double *property, double *param) { param[kTension] = property[0]; }
 
   template <bool kBeta, class T>
-  static CDEM_HD JointBrittle::Outcome<T> Force(const T normal[3], T kn, T ks, T tension, T, T, const T d[3],
-                                                const T[3], T[3], T force[3]) {
-    JointElastic::Force(normal, kn, ks, d, force);
-    JointBrittle::Outcome<T> out;
-    out.open = (-Dot(normal, force) >= tension) & (Dot(normal, d) > T{});
-    out.slides = tension < T{};
+  static CDEM_HD Outcome<T> Force(Spring<T> &s, T force[3]) {
+    JointElastic::Force(s.normal, s.kn, s.ks, s.d, force);
+    const T strength = s.param[kTension] * s.area * (1.0 - s.tension_lost);
+    Outcome<T> out;
+    out.open = (-Dot(s.normal, force) >= strength) & (Dot(s.normal, s.d) > T{});
+    out.slides = T{} < T{};
+    out.tension_lost = out.cohesion_lost = out.changed = out.open;
     CDEM_UNROLL for (int k = 0; k < 3; ++k) force[k] = out.open ? T{} : force[k];
+    s.history[kCount] = out.open ? s.history[kCount] + 1.0 : s.history[kCount];
     return out;
   }
 };
 
+/// Glue that dries: another law of the same name, for great strengths.
+struct StrongGlue : Glue {
+  static bool Serves(const double *property) { return property[0] > 100; }
+};
+
 using Blocks = LawList<Elastic, Stiffer>;
-using Joints = LawList<JointElastic, JointBrittle, Slippery, Glue>;
+using Joints = LawList<JointElastic, JointBrittle, Slippery, StrongGlue, Glue>;
 
 TEST(NewLaw, IsFoundByItsName) {
   EXPECT_EQ(Blocks::kCount, 2);
@@ -78,10 +84,25 @@ TEST(NewLaw, IsFoundByItsName) {
     int calls = 0;
     Joints::Visit(law, [&](auto l) {
       ++calls;
-      EXPECT_EQ(Joints::Find(decltype(l)::kName), law);
+      EXPECT_EQ(Joints::Find(decltype(l)::kName), std::min(law, 3));
     });
     EXPECT_EQ(calls, 1);
   }
+}
+
+TEST(NewLaw, OfOneNameIsChosenByItsProperties) {
+  const double weak[1] = {10}, strong[1] = {200};
+  EXPECT_EQ(Joints::Choose(3, weak), 4);
+  EXPECT_EQ(Joints::Choose(4, weak), 4);
+  EXPECT_EQ(Joints::Choose(4, strong), 3);
+  EXPECT_EQ(Joints::Choose(0, nullptr), 0);
+  const double plain[5] = {1, 1, 30, 0, 1}, dilates[5] = {1, 1, 30, 5, 1};
+  for (const char *name : {"brittle", "softening"}) {
+    const int first = JointLaws::Find(name);
+    EXPECT_EQ(JointLaws::Choose(first, plain), first);
+    EXPECT_EQ(JointLaws::Choose(first, dilates), first + 1);
+  }
+  EXPECT_EQ(JointLaws::Names(), "elastic, brittle, softening");
 }
 
 TEST(NewLaw, PropertiesHaveTheirBounds) {
@@ -134,18 +155,19 @@ TEST(NewLaw, OfBlocksRunsInEveryElement) {
     });
 }
 
-/// The force of a spring of normal z by the law of that number; its state after a committing evaluation.
-std::array<double, 3> SpringOf(const char *law, double x, double z, std::uint8_t *state) {
+/// The force of a spring of normal z by the law of that name; its state and count after a committing evaluation.
+std::array<double, 3> SpringOf(const char *law, double x, double z, std::uint8_t *state, double *count) {
   std::array<double, 3> force{};
-  Joints::Visit(Joints::Find(law), [&](auto l) {
+  const double property[5] = {10, 10, 30, 0, 1};
+  Joints::Visit(Joints::Choose(Joints::Find(law), property), [&](auto l) {
     using Law = decltype(l);
     double param[kMaxParams] = {};
-    const double property[3] = {10, 10, 30};
     Law::Derive(property, param);
-    Spring<double> s = {{0, 0, 1}, 100, 50, 0.5, {x, 0, z}, {0, 0, 0}, param, *state & kTensionLost ? 1.0 : 0, 0, {}};
-    bool opens = false, slides = false;
-    SpringForce<Law, false>(s, force.data(), &opens, &slides);
-    if (Law::kHistory) *state = NextState(*state, opens, slides, false);
+    Spring<double> s = {{0, 0, 1}, 100,     50, 0.5, {x, 0, z}, {0, 0, 0}, param, *state & kTensionLost ? 1.0 : 0,
+                        0,         {*count}};
+    const auto out = SpringForce<Law, false>(s, force.data());
+    if (Law::kHistory) *state = NextState(*state, StateBits(out));
+    if (out.changed) *count = s.history[0];
   });
   return force;
 }
@@ -153,15 +175,17 @@ std::array<double, 3> SpringOf(const char *law, double x, double z, std::uint8_t
 TEST(NewLaw, OfInterfacesRunsInSprings) {
   using Force = std::array<double, 3>;
   std::uint8_t state = 0;
-  EXPECT_EQ(SpringOf("elastic", 0.5, -0.25, &state), (Force{-25, 0, 25}));
-  EXPECT_EQ(SpringOf("slippery", 0.5, -0.25, &state), (Force{0, 0, 25}));
+  double count = 0;
+  EXPECT_EQ(SpringOf("elastic", 0.5, -0.25, &state, &count), (Force{-25, 0, 25}));
+  EXPECT_EQ(SpringOf("slippery", 0.5, -0.25, &state, &count), (Force{0, 0, 25}));
   EXPECT_EQ(state, 0);
-  EXPECT_EQ(SpringOf("glue", 0.5, 0.03125, &state), (Force{-25, 0, -3.125})) << "below its strength of 5 N";
+  EXPECT_EQ(SpringOf("glue", 0.5, 0.03125, &state, &count), (Force{-25, 0, -3.125})) << "below its strength of 5 N";
   EXPECT_EQ(state, 0);
-  EXPECT_EQ(SpringOf("glue", 0.5, 0.0625, &state), (Force{0, 0, 0}));
+  EXPECT_EQ(SpringOf("glue", 0.5, 0.0625, &state, &count), (Force{0, 0, 0}));
   EXPECT_EQ(state, kTensionLost | kCohesionLost | kOpen);
-  EXPECT_EQ(SpringOf("glue", 0.5, 0.03125, &state), (Force{0, 0, 0})) << "it has none left";
-  EXPECT_EQ(SpringOf("glue", 0.5, -0.25, &state), (Force{-25, 0, 25}));
+  EXPECT_EQ(SpringOf("glue", 0.5, 0.03125, &state, &count), (Force{0, 0, 0})) << "it has none left";
+  EXPECT_EQ(SpringOf("glue", 0.5, -0.25, &state, &count), (Force{-25, 0, 25}));
+  EXPECT_EQ(count, 2) << "evaluations in which it was open";
 }
 
 }  // namespace

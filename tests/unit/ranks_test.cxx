@@ -9,6 +9,11 @@ TEST(Ranks, DoNotMatterWhenBreaking) {
     ExpectRanksDoNotMatter(BreakingScene(shape) + " -ts_max_steps 1000 -device cpu");
 }
 
+TEST(Ranks, DoNotMatterToAnyLawThatBreaks) {
+  for (const char *law : kBreakingLaws)
+    ExpectRanksDoNotMatter(BreakingScene("wedge", law) + " -ts_max_steps 1000 -device cpu");
+}
+
 TEST(Ranks, DoNotMatterWhenJoined) { ExpectRanksDoNotMatter(std::string(kBrick) + " -ts_max_steps 500 -device cpu"); }
 
 TEST(Ranks, DoNotMatterWithOneCellEach) {

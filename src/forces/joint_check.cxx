@@ -1,0 +1,64 @@
+#include "forces/joint_check.hpp"
+
+#include "core/error.hpp"
+#include "physics/laws.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace cdem {
+
+namespace {
+
+/// Of one interface, over all faces. Kept as minima, so that one reduction serves.
+struct FaceRange {
+  double kn = kPropertyInf, ks = kPropertyInf;  ///< the softest face [Pa/m]
+  double fineness = kPropertyInf;  ///< largest cell that resolves the failure / distance of the cell centres
+};
+
+void Widen(const Mesh &mesh, const std::vector<Material> &materials, const Joint &joint, const Face &face,
+           FaceRange *range) {
+  const double young = std::min(materials[mesh.cell_region[face.cell[0]]].young(),
+                                materials[mesh.cell_region[face.cell[1]]].young());
+  JointLaws::Visit(joint.law, [&](auto law) {
+    range->fineness =
+        std::min(range->fineness, decltype(law)::LargestCell(joint.property, young) / CentreDistance(mesh, face));
+  });
+}
+
+}  // namespace
+
+PetscErrorCode CheckJoints(const Mesh &mesh, const std::vector<std::string> &names,
+                           const std::vector<Material> &materials, const std::vector<Joint> &joints,
+                           const Tables &tables, std::vector<std::string> *remarks) {
+  PetscFunctionBeginUser;
+  static_assert(sizeof(FaceRange) == 3 * sizeof(double), "reduced as an array of doubles");
+  std::vector<FaceRange> ranges(joints.size());
+  for (const SpringTable &t : tables.springs)
+    for (int i = 0; i < t.n; ++i) {
+      FaceRange &range = ranges[t.joint[i]];
+      range.kn = std::min(range.kn, t.kn[i] / t.area[i]);
+      range.ks = std::min(range.ks, t.ks[i] / t.area[i]);
+      if (i == 0 || t.face[i] != t.face[i - 1])
+        Widen(mesh, materials, joints[t.joint[i]], mesh.faces[t.face[i]], &range);
+    }
+  PetscCallMPI(
+      MPI_Allreduce(MPI_IN_PLACE, ranges.data(), static_cast<int>(3 * ranges.size()), MPI_DOUBLE, MPI_MIN, mesh.comm));
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const FaceRange &range = ranges[i];
+    std::string wrong;
+    JointLaws::Visit(joints[i].law,
+                     [&](auto law) { wrong = decltype(law)::CheckFace(joints[i].property, range.kn, range.ks); });
+    CdemCheck(wrong.empty(), mesh.comm, "interface '%s': %s", names[i].c_str(), wrong.c_str());
+    if (range.fineness >= 1 - 1e-9) continue;
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "interface %s: the cells beside it are up to %.3g times too large for its softening (h <= l_ch/5, "
+                  "l_ch = E gi / tension^2): peak loads will depend on the mesh",
+                  names[i].c_str(), 1 / range.fineness);
+    remarks->push_back(text);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem
