@@ -25,6 +25,10 @@ BREAKING = {"interfaces": "joints", "interface_joints_on": "all", "interface_joi
             "interface_joints_tension": 1e5, "interface_joints_cohesion": 2e5, "interface_joints_friction": 30.0}
 
 
+SOFTENING = {**BREAKING, "interface_joints_law": "softening", "interface_joints_gi": 5.0, "interface_joints_gii": 20.0}
+DILATION = {"interface_joints_dilation": 10.0, "interface_joints_dilation_slip": 1e-3}
+
+
 def box(shape):
     return {"mesh": "box", "mesh_box_cells": (4, 4, 6), "mesh_box_size": (2, 2, 3), "mesh_box_shape": shape,
             "mesh_box_jitter": 0.15}
@@ -35,6 +39,10 @@ def scene(name, folder):
     base = {**BASE, "boundaries": ("zmin", "zmax")}
     if name == "torn by beta":
         return {**base, **box("hex"), **BREAKING, "damping_beta": 2e-5}, True
+    if name.startswith("softening"):
+        return {**base, **box("hex"), **SOFTENING, **(DILATION if "dilating" in name else {})}, True
+    if name.startswith("brittle dilating"):
+        return {**base, **box("hex"), **BREAKING, **DILATION}, True
     if name.startswith("torn "):
         return {**base, **box(name.split()[1]), **BREAKING}, True
     if name.startswith("joined "):
@@ -48,7 +56,7 @@ def scene(name, folder):
     return {**base, "mesh": path, **fault, "interfaces": "fault", "interface_fault_on": "between:lower:upper"}, True
 
 
-SCENES = ["torn hex", "torn tet", "torn wedge", "torn by beta", "joined hex", "joined tet", "fault"]
+SCENES = ["torn hex", "torn tet", "torn wedge", "torn by beta", "softening", "softening dilating", "brittle dilating", "joined hex", "joined tet", "fault"]
 
 
 def result(folder, options, **keywords):
