@@ -71,7 +71,7 @@ PetscErrorCode Simulation::ReadScene() {
   PetscCall(CreateJointSets(mesh_, options_, &joint_sets_, &joint_faces, &remarks_));
   Phase("scene");
   PetscCall(SelectInterfaces(mesh_, options_, joint_faces, &interface_names_, &face_interface_));
-  PetscCall(ReadMaterials(options_, mesh_.regions, &materials_));
+  PetscCall(ReadMaterials(options_, mesh_.regions, &materials_, &remarks_));
   PetscCall(ReadJoints(options_, interface_names_, &joints_, &remarks_));
   PetscCall(ReadTables(options_, &table_names_, &time_tables_));
   PetscCall(ReadBoundaries(mesh_, options_, table_names_, &boundaries_));

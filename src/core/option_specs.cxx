@@ -160,6 +160,13 @@ void AddOption(const OptionSpec &spec) {
     for (const std::string &word : SplitList(spec.choices))
       if (std::find(choices.begin(), choices.end(), word) == choices.end()) all += (all.empty() ? "" : ",") + word;
     if (all != found->choices) found->choices = Keep(all);
+    // laws may differ in what they take without it
+    const std::string required = "required by ", other = spec.fallback, one = found->fallback;
+    if (one == "required" || one.find(other) != std::string::npos) return;
+    const bool both =
+        one.compare(0, required.size(), required) == 0 && other.compare(0, required.size(), required) == 0;
+    if (both && one.find(other.substr(required.size())) != std::string::npos) return;
+    found->fallback = Keep(one + (both ? ", " + other.substr(required.size()) : "; " + other));
     return;
   }
   auto place = specs.end();

@@ -26,6 +26,7 @@ struct Property {
   const char *text = "";  ///< for -help
   double fallback = kRequired;
   const char *words = "";
+  const char *fallback_text = "";  ///< for -help, where the number does not say it
 
   bool Allows(double value) const {
     return bounds == kPropertyOpen ? low < value && value < high : low <= value && value <= high;
@@ -44,6 +45,8 @@ struct BlockLawDefaults {
   static constexpr bool kNeedsSize = false;   ///< parameters depend on the size of the element
   /// What is wrong with a combination of properties, or an empty string.
   static std::string Check(const double *) { return {}; }
+  /// What Derive changed in the properties, for the header of the run, or an empty string.
+  static std::string Remark(const double *) { return {}; }
 };
 
 inline constexpr int kMaxSpringState = 8;  ///< doubles of history an interface law may keep per spring

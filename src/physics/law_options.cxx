@@ -23,7 +23,9 @@ static void RegisterLaw(const std::string &prefix) {
   for (const Property &p : Law::kProperties) {
     const std::string name = prefix + p.key;
     std::string fallback = std::string("required by ") + Law::kName;
-    if (!std::isnan(p.fallback))
+    if (*p.fallback_text)
+      fallback = p.fallback_text;
+    else if (!std::isnan(p.fallback))
       fallback = *p.words ? SplitList(p.words)[static_cast<int>(p.fallback)] : Text(p.fallback);
     AddOption(
         {name.c_str(), *p.words ? OptionType::kWord : OptionType::kReal, p.unit, fallback.c_str(), p.text, p.words});

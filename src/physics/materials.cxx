@@ -92,7 +92,7 @@ static PetscErrorCode ReadLawName(Options &options, const std::string &family, c
 }
 
 PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions,
-                             std::vector<Material> *materials) {
+                             std::vector<Material> *materials, std::vector<std::string> *remarks) {
   PetscFunctionBeginUser;
   options.Declare("block", regions);
   materials->assign(regions.size(), Material());
@@ -102,9 +102,13 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
     const Property density{"density", "kg/m^3", 0, kPropertyInf, kPropertyOpen};
     PetscCall(ReadProperty(options, "block", regions[r], density, &material.density));
     PetscErrorCode ierr = PETSC_SUCCESS;
-    BlockLaws::Visit(material.law,
-                     [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.property); });
+    std::string remark;
+    BlockLaws::Visit(material.law, [&](auto law) {
+      ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.property);
+      remark = decltype(law)::Remark(material.property);
+    });
     PetscCall(ierr);
+    if (remarks && !remark.empty()) remarks->push_back("region " + regions[r] + ": " + remark);
     DeriveBlock(material.law, material.property, 1, material.param);
     BlockLaws::Visit(material.law, [&](auto law) {
       ierr = ReadScatters(options, "block", regions[r], decltype(law)::kProperties, &material.scatter);

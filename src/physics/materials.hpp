@@ -37,9 +37,10 @@ struct Joint {
 void DeriveBlock(int law, const double *property, double size, double *param);
 void DeriveJoint(int law, const double *property, double *param);
 
-/// Reads -block_<region>_*. Errors: a region without material, a value out of its range.
+/// Reads -block_<region>_*; remarks, where wanted, receives what was changed (a tension above the apex is cut to it).
+/// Errors: a region without material, a value out of its range.
 PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions,
-                             std::vector<Material> *materials);
+                             std::vector<Material> *materials, std::vector<std::string> *remarks = nullptr);
 
 /// Reads -interface_<name>_*; remarks receives what was changed (a tension above cohesion / tan(phi) is cut to it).
 PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &names, std::vector<Joint> *joints,
