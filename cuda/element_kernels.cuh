@@ -57,7 +57,7 @@ __device__ __forceinline__ void ElementThread(const ElementView &t, int e, const
   }
   ElementStep<Form, Law, kBeta, kObserve, double>(x, w, rate, param, &history, force, sums);
   if constexpr (Law::kState > 0) {
-    *broken = history.tension || history.shear;
+    *broken = Failed<Law>(history);
     const std::uint8_t after = (history.touched || history.changed ? kTouched : 0) |
                                (history.tension ? kBrokenTension : 0) | (history.shear ? kBrokenShear : 0);
     if (!kObserve && after != before) {

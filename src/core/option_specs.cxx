@@ -19,7 +19,7 @@ static std::vector<OptionSpec> &Registry() {
       {"seed", T::kInt, "", "1", "start of all random numbers", ""},
 
       {"block_<region>_law", T::kWord, "", "elastic", "law of the material", "elastic"},
-      {"block_<region>_element", T::kWord, "", "full", "element form: full integration", "full"},
+      {"block_<region>_element", T::kWord, "", "full", "element form. full: full integration; bbar: mean dilatation, against locking in plastic flow and near incompressibility; onepoint: one stress point and stiffness against hourglassing, for speed (hexahedra). The law spring has its own", "full,bbar,onepoint"},
       {"block_<region>_young", T::kReal, "Pa", "required", "Young's modulus", ""},
       {"block_<region>_poisson", T::kReal, "", "required", "Poisson's ratio, above -1 and below 0.5", ""},
       {"block_<region>_density", T::kReal, "kg/m^3", "required", "density", ""},

@@ -25,12 +25,18 @@ struct ElementHistory {
   double *value = nullptr;   ///< of the first point and number
   long long stride = 0;      ///< from one number to the next
   MaskOf<T> touched;         ///< [in] some number is not zero
-  MaskOf<T> changed;         ///< [out] numbers were written
+  MaskOf<T> changed;         ///< [out] numbers were written, or an observation would have
   MaskOf<T> tension, shear;  ///< broken, by a law that judges the element's mean stress
 
   CDEM_HD T Get(int at) const { return LoadAs<T>(value + at * stride); }
   CDEM_HD void Set(int at, T x) const { StoreAs(value + at * stride, x); }
 };
+
+/// Elements that have failed: broken, in laws of corners anywhere.
+template <class Law, class T>
+CDEM_HD MaskOf<T> Failed(const ElementHistory<T> &h) {
+  return Law::kAtCorners ? h.touched | h.changed : h.tension | h.shear;
+}
 
 /// Elastic energy of a stress per volume [J/m^3].
 template <class T>
@@ -58,17 +64,22 @@ struct PointOf {
     }
     if (kObserve) Add(strain, volume, stress);
   }
-  /// The same at a corner with the unit normals of its three faces, for forms whose points are corners.
-  CDEM_HD void operator()(int g, const T strain[6], T volume, const T normal[3][3], T stress[6]) const {
+  /// The same at a corner with vectors along the normals of its three faces, for forms whose points are corners.
+  CDEM_HD void operator()(int g, const T strain[6], T volume, const T area[3][3], T stress[6]) const {
     if constexpr (Law::kAtCorners) {
       T state[Law::kState];
       Recall(g, state);
-      Keep(g, state, Law::Stress(param, strain, normal, state, stress));
+      Keep(g, state, Law::Stress(param, strain, area, state, stress));
       if (kObserve) Add(strain, volume, stress);
     } else {
-      (void)normal;
+      (void)area;
       (*this)(g, strain, volume, stress);
     }
+  }
+  /// For forms with a stiffness of their own: the shear modulus [Pa], and the energy [J] that it holds.
+  CDEM_HD T ShearModulus() const { return param[Elastic::kMu]; }
+  CDEM_HD void Stored(T energy) const {
+    if (kObserve) sums->energy += energy;
   }
 
  private:
@@ -78,15 +89,16 @@ struct PointOf {
       CDEM_UNROLL for (int i = 0; i < Law::kState; ++i) state[i] = history->Get(g * Law::kState + i);
     }
   }
-  /// An observation leaves the history alone.
+  /// An observation leaves the values alone.
   CDEM_HD void Keep(int g, const T *state, MaskOf<T> changed) const {
     if (Law::kJudgesMean) changed = changed & (history->tension | history->shear);  // its neighbours in the lanes
-    if (kObserve || !Any(changed)) return;
+    if (!Any(changed)) return;
+    history->changed = history->changed | changed;
+    if (kObserve) return;
     CDEM_UNROLL for (int i = 0; i < Law::kState; ++i) {
       const int at = g * Law::kState + i;
       history->Set(at, Law::kJudgesMean ? (changed ? state[i] : history->Get(at)) : state[i]);
     }
-    history->changed = history->changed | changed;
   }
   CDEM_HD void Add(const T strain[6], T volume, const T stress[6]) const {
     if constexpr (Law::kLinear)
@@ -150,7 +162,7 @@ CDEM_HD void ElementStep(const T x[][3], T u[][3], const T beta_rate[][3], const
   if (kBeta) {
     T g[corners][3];
     ElementForce<Form, Elastic, false, T>(x, beta_rate, param, g, nullptr);
-    const MaskOf<T> failed = Law::kAtCorners ? history->touched | history->changed : history->tension | history->shear;
+    const MaskOf<T> failed = Failed<Law>(*history);
     CDEM_UNROLL for (int a = 0; a < corners; ++a) CDEM_UNROLL for (int k = 0; k < 3; ++k) f[a][k] +=
         failed ? T{} : g[a][k];
   }

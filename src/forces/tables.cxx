@@ -57,6 +57,14 @@ int FormNumber(Shape shape, const std::string &name) {
   return form;
 }
 
+/// The forms that a region may ask for.
+template <class... Forms>
+std::string NamesOfForms(LawList<Forms...>) {
+  std::string all;
+  ((all += Forms::kAtCorners ? "" : std::string(all.empty() ? "" : ", ") + Forms::kName), ...);
+  return all;
+}
+
 /// Every region's elements have the form that its material asks for, and law and form fit (collective).
 PetscErrorCode CheckForms(const Mesh &mesh, const std::vector<Material> &materials) {
   PetscFunctionBeginUser;
@@ -71,12 +79,18 @@ PetscErrorCode CheckForms(const Mesh &mesh, const std::vector<Material> &materia
       const Shape shape = static_cast<Shape>(s);
       const Material &m = materials[r];
       std::string forms, law;
-      VisitForms(shape, [&](auto list) { forms = decltype(list)::Names(); });
-      BlockLaws::Visit(m.law, [&](auto l) { law = decltype(l)::kName; });
+      bool at_corners = false, fits = false;
+      BlockLaws::Visit(m.law, [&](auto l) {
+        law = decltype(l)::kName;
+        at_corners = decltype(l)::kAtCorners;
+      });
+      VisitForms(shape, [&](auto list) { forms = NamesOfForms(list); });
       const int form = FormNumber(shape, m.element);
+      CdemCheck(form >= 0 || !at_corners, mesh.comm,
+                "region '%s' has %s, for which there is no law %s: it is one of hexahedra", mesh.regions[r].c_str(),
+                names[s], law.c_str());
       CdemCheck(form >= 0, mesh.comm, "region '%s' has %s, which know no element form '%s'; their forms are: %s",
                 mesh.regions[r].c_str(), names[s], m.element.c_str(), forms.c_str());
-      bool fits = false;
       VisitBlock(shape, form, m.law, [&](auto, auto) { fits = true; });
       CdemCheck(fits, mesh.comm, "region '%s': the law %s cannot be computed in %s of form '%s'",
                 mesh.regions[r].c_str(), law.c_str(), names[s], m.element.c_str());

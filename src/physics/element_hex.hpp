@@ -2,17 +2,15 @@
 // coordinate, and the trilinear modes of a field are sums of its corners with signs +-1. Nothing is scaled until the end:
 // columns are 8 times, cofactors 64 times and determinants 512 times their size.
 #pragma once
-#include "core/small.hpp"
-#include "mesh/shapes.hpp"
+#include "physics/form.hpp"
 
 namespace cdem {
 
-struct HexFull {
+struct HexFull : FormDefaults {
   static constexpr const char *kName = "full";
   static constexpr Shape kShape = Shape::kHex;
   static constexpr int kCorners = 8;
   static constexpr int kPoints = 8;
-  static constexpr bool kAtCorners = false;
   static constexpr double kGauss = 0.57735026918962576451;
 
   // modes: xi, eta, zeta, xi eta, eta zeta, xi zeta, xi eta zeta

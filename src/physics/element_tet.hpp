@@ -1,16 +1,14 @@
 // The 4-node tetrahedron: one constant strain.
 #pragma once
-#include "core/small.hpp"
-#include "mesh/shapes.hpp"
+#include "physics/form.hpp"
 
 namespace cdem {
 
-struct TetFull {
+struct TetFull : FormDefaults {
   static constexpr const char *kName = "full";
   static constexpr Shape kShape = Shape::kTet;
   static constexpr int kCorners = 4;
   static constexpr int kPoints = 1;
-  static constexpr bool kAtCorners = false;
 
   /// Internal forces f [4][3] [N] of displacements u [4][3] [m] at corners x [4][3] [m]; point as for HexFull.
   template <class T, class Point>

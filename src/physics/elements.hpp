@@ -1,6 +1,9 @@
 // The lists of element forms, by shape: a new form is its header and one name here.
 #pragma once
 #include "physics/element_hex.hpp"
+#include "physics/element_hex_bbar.hpp"
+#include "physics/element_hex_onepoint.hpp"
+#include "physics/element_hex_spring.hpp"
 #include "physics/element_tet.hpp"
 #include "physics/element_wedge.hpp"
 #include "physics/laws.hpp"
@@ -8,8 +11,8 @@
 namespace cdem {
 
 using TetForms = LawList<TetFull>;
-using WedgeForms = LawList<WedgeFull>;
-using HexForms = LawList<HexFull>;
+using WedgeForms = LawList<WedgeFull, WedgeBbar>;
+using HexForms = LawList<HexFull, HexBbar, HexOnePoint, HexSpring>;
 
 /// Calls f(List{}) with the forms of a shape.
 template <class F>

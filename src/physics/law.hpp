@@ -41,8 +41,9 @@ struct BlockLawDefaults {
   static constexpr bool kLinear = false;      ///< the forces are linear in u: beta damping acts on u + beta v for free
   static constexpr int kState = 0;            ///< doubles of history a Gauss point; all zero at the start
   static constexpr bool kJudgesMean = false;  ///< breaks by the element's mean stress
-  static constexpr bool kAtCorners = false;   ///< for forms whose points are corners: given their face normals
-  static constexpr bool kNeedsSize = false;   ///< parameters depend on the size of the element
+  static constexpr bool kAtCorners =
+      false;  ///< for forms whose points are corners: given vectors along their faces' normals
+  static constexpr bool kNeedsSize = false;  ///< parameters depend on the size of the element
   /// What is wrong with a combination of properties, or an empty string.
   static std::string Check(const double *) { return {}; }
   /// What Derive changed in the properties, for the header of the run, or an empty string.

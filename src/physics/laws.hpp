@@ -4,13 +4,14 @@
 #include "physics/block_drucker_prager.hpp"
 #include "physics/block_elastic.hpp"
 #include "physics/block_mohr_coulomb.hpp"
+#include "physics/block_spring.hpp"
 #include "physics/joint_brittle.hpp"
 #include "physics/joint_elastic.hpp"
 #include "physics/joint_softening.hpp"
 
 namespace cdem {
 
-using BlockLaws = LawList<Elastic, DruckerPrager, MohrCoulomb, Breakage>;
+using BlockLaws = LawList<Elastic, DruckerPrager, MohrCoulomb, Breakage, SpringBlock>;
 using JointLaws = LawList<JointElastic, JointBrittle, JointBrittleDilating, JointSoftening, JointSofteningDilating>;
 
 }  // namespace cdem

@@ -91,6 +91,24 @@ static PetscErrorCode ReadLawName(Options &options, const std::string &family, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/// Laws of corners have an element form of their own, of their name.
+static PetscErrorCode ReadForm(Options &options, const std::string &region, Material *material) {
+  PetscFunctionBeginUser;
+  const OptionKey key("block", region, "element");
+  bool set, at_corners = false;
+  std::string law;
+  BlockLaws::Visit(material->law, [&](auto l) {
+    at_corners = decltype(l)::kAtCorners;
+    law = decltype(l)::kName;
+  });
+  PetscCall(options.Word(key, &material->element, &set));
+  CdemCheck(!set || !at_corners, options.comm(),
+            "region '%s': the law %s has an element form of its own, so there is no choosing %s; leave it out here",
+            region.c_str(), law.c_str(), Options::Spelled(key).c_str());
+  if (at_corners) material->element = law;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions,
                              std::vector<Material> *materials, std::vector<std::string> *remarks) {
   PetscFunctionBeginUser;
@@ -119,7 +137,7 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
     CdemCheck(!sized || (material.scatter.any && material.scatter.volume > 0), options.comm(),
               "%s is %g; it must be above 0, and goes with a weibull scatter",
               Options::Spelled({"block", regions[r], "scatter_volume"}).c_str(), material.scatter.volume);
-    PetscCall(options.Word({"block", regions[r], "element"}, &material.element));
+    PetscCall(ReadForm(options, regions[r], &material));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -19,6 +19,7 @@ JOINTS = {"interfaces": "joints", "interface_joints_on": "all", "interface_joint
           "interface_joints_tension": 1e5, "interface_joints_cohesion": 1e5, "interface_joints_friction": 30.0}
 DISCS = {"joints": "j", "joint_j_p32": 1.0, "joint_j_dip": 30.0, "joint_j_dip_direction": 40.0,
          "joint_j_diameter": "fixed:2", "interfaces": "i", "interface_i_on": "joints:j"}
+SPRINGS = {"block_law": "spring", "block_tension": 1e5, "block_cohesion": 1e5, "block_friction": 30.0}
 DROP = object()  # as a value: the option is left out
 FILE = {"joint_j_p32": DROP, "joint_j_dip": DROP, "joint_j_dip_direction": DROP, "joint_j_diameter": DROP}
 
@@ -114,6 +115,15 @@ OPTIONS = {
     "negative stiffness": ({**JOINTS, "interface_joints_kn": -1e9}, ["kn", "-1e"]),
     "no strength": ({**JOINTS, "interface_joints_cohesion": DROP}, ["cohesion", "joints"]),
     "negative damping": ({"damping_alpha": -1.0}, ["-damping_alpha"]),
+    # element forms and laws that do not go together
+    "unknown element form": ({"block_element": "fool"}, ["-block_element", "fool", "full"]),
+    "form that tetrahedra lack": ({"mesh_box_shape": "tet", "block_element": "onepoint"}, ["box", "tetrahedra", "onepoint", "full"]),
+    "form that wedges lack": ({"mesh_box_shape": "wedge", "block_element": "onepoint"}, ["box", "wedges", "onepoint", "full, bbar"]),
+    "springs of tetrahedra": ({**SPRINGS, "mesh_box_shape": "tet"}, ["box", "tetrahedra", "spring", "hexahedra"]),
+    "springs of wedges": ({**SPRINGS, "mesh_box_shape": "wedge"}, ["box", "wedges", "spring", "hexahedra"]),
+    "springs with an element form": ({**SPRINGS, "block_element": "full"}, ["box", "spring", "-block_element", "leave it out"]),
+    "springs without strength": ({**SPRINGS, "block_tension": DROP}, ["box", "tension"]),
+    "the form of springs by its name": ({"block_element": "spring"}, ["-block_element", "spring", "onepoint"]),
     # values
     "no value": ({"gravity": None}, ["-gravity"]),
     "too few numbers": ({"gravity": (0, -9.81)}, ["-gravity", "3"]),
@@ -147,7 +157,7 @@ OPTIONS = {
     "equilibrium": ({"solve": "relax"}, ["-solve", "relax"]),
     "stages": ({"stages": "dig"}, ["-stages"]),
     "quiet boundary": ({"boundary_zmin_quiet": None}, ["-boundary_zmin_quiet"]),
-    "plasticity": ({"block_law": "drucker_prager"}, ["drucker_prager", "elastic"]),
+    "no such law": ({"block_law": "drucker"}, ["drucker", "drucker_prager", "elastic"]),
     # machine
     "unknown device": ({"device": "gpu"}, ["-device", "gpu", "cuda"]),
     "step above the bound": ({"ts_dt": 1.0}, ["-ts_dt", "bound", "-ts_central_check"]),
@@ -169,10 +179,10 @@ def test_option_on_two_ranks(name, tmp_path):
 
 def test_good_scene_is_accepted(tmp_path):
     """The scene that the cases above spoil has nothing wrong of its own."""
-    for changes in ({}, JOINTS, DISCS):
-        done = harness.call(tmp_path / str(len(changes)), changed(changes))
+    for i, changes in enumerate(({}, JOINTS, DISCS, SPRINGS, {"block_element": "bbar", "mesh_box_shape": "wedge"})):
+        done = harness.call(tmp_path / str(i), changed(changes))
         assert done.returncode == 0, text_of(done)
-        assert (tmp_path / str(len(changes)) / "out" / "summary.json").exists()
+        assert (tmp_path / str(i) / "out" / "summary.json").exists()
 
 
 # Meshes

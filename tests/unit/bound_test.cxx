@@ -12,9 +12,11 @@ struct Scene {
   double beta = 0;     ///< s
   double soft = 1;     ///< Young's modulus of every second cell over that of the first
   bool fixed = false;  ///< all nodes at z = 0
+  const char *element = "full";
 };
 
 const char *const kCubes = "-mesh box -mesh_box_cells 3,3,3 -mesh_box_size 3,3,3";
+const char *const kJitter = "-mesh box -mesh_box_cells 3,3,3 -mesh_box_size 3,3,3 -mesh_box_jitter 0.3";
 const char *const kPair = "-mesh box -mesh_box_cells 2,2,2 -mesh_box_size 2,2,2";
 
 const Scene kScenes[] = {
@@ -34,8 +36,7 @@ const Scene kScenes[] = {
     {"27 cubes, joined, nu = .45", kCubes, 0, 0.45, 0.6},
     {"27 cubes, joined, fixed", kCubes, 0, 0.25, 0.75, 0, 1, true},
     {"27 cubes, joined, beta = 1e-4", kCubes, 0, 0.25, 0.75, 1e-4},
-    {"27 hexahedra, joined, jitter", "-mesh box -mesh_box_cells 3,3,3 -mesh_box_size 3,3,3 -mesh_box_jitter 0.3", 0,
-     0.25, 0.7},
+    {"27 hexahedra, joined, jitter", kJitter, 0, 0.25, 0.7},
     {"27 cubes, joined, contrast 100", kCubes, 0, 0.25, 0.6, 0, 0.01},
     {"48 tetrahedra, joined, jitter",
      "-mesh box -mesh_box_cells 2,2,2 -mesh_box_size 2,2,2 -mesh_box_shape tet -mesh_box_jitter 0.2", 0, 0.25, 0.5},
@@ -47,6 +48,16 @@ const Scene kScenes[] = {
      "-mesh box -mesh_box_cells 3,3,2 -mesh_box_size 3,3,2 -mesh_box_shape wedge -mesh_box_jitter 0.2", 0, 0.25, 0.6},
     {"16 wedges, split, b = 20", "-mesh box -mesh_box_cells 2,2,2 -mesh_box_size 2,2,2 -mesh_box_shape wedge", 20, 0.25,
      0.6},
+    {"27 cubes, joined, bbar", kCubes, 0, 0.25, 0.75, 0, 1, false, "bbar"},
+    {"27 hexahedra, jitter, bbar, nu = .45", kJitter, 0, 0.45, 0.6, 0, 1, false, "bbar"},
+    {"27 cubes, joined, onepoint", kCubes, 0, 0.25, 0.75, 0, 1, false, "onepoint"},
+    {"27 hexahedra, jitter, onepoint", kJitter, 0, 0.25, 0.6, 0, 1, false, "onepoint"},
+    {"8 cubes, split, b = 20, onepoint", kPair, 20, 0.25, 0.8, 0, 1, false, "onepoint"},
+    {"27 cubes, joined, spring", kCubes, 0, 0.25, 0.75, 0, 1, false, "spring"},
+    {"27 hexahedra, jitter, spring", kJitter, 0, 0.25, 0.5, 0, 1, false, "spring"},
+    {"36 wedges, jitter, bbar",
+     "-mesh box -mesh_box_cells 3,3,2 -mesh_box_size 3,3,2 -mesh_box_shape wedge -mesh_box_jitter 0.2", 0, 0.25, 0.6, 0,
+     1, false, "bbar"},
 };
 
 TEST(StepBound, IsBelowTheExactStepAndNotFarBelow) {
@@ -57,6 +68,12 @@ TEST(StepBound, IsBelowTheExactStepAndNotFarBelow) {
     body.Make(scene.mesh);
     body.materials = {MakeMaterial(1e10, scene.poisson, 2500), MakeMaterial(scene.soft * 1e10, scene.poisson, 2500)};
     for (PetscInt c = 0; c < body.mesh.n_cells; ++c) body.mesh.cell_region[c] = static_cast<int>(c % 2);
+    for (Material &m : body.materials) {
+      m.element = scene.element;
+      if (m.element == "spring")
+        m.law = BlockLaws::Find("spring"), m.param[SpringBlock::kTension] = 1e30,
+        m.param[SpringBlock::kCohesion] = 1e30;
+    }
     if (scene.b > 0) body.SplitAll();
     body.joints[0].stiffness_factor = scene.b;
     body.Build();

@@ -147,11 +147,14 @@ std::vector<double> CornerForces(int law, double lambda_factor) {
 
 TEST(NewLaw, OfBlocksRunsInEveryElement) {
   for (Shape shape : {Shape::kTet, Shape::kWedge, Shape::kHex})
-    VisitElement(shape, 0, [&](auto form) {
-      using Form = decltype(form);
-      const int law = Blocks::Find("stiffer");
-      EXPECT_EQ(CornerForces<Form>(law, 1), CornerForces<Form>(Blocks::Find("elastic"), 2));
-      EXPECT_NE(CornerForces<Form>(law, 1), CornerForces<Form>(Blocks::Find("elastic"), 1));
+    VisitForms(shape, [&](auto forms) {
+      for (int number = 0; number < decltype(forms)::kCount; ++number)
+        VisitElement(shape, number, [&](auto form) {
+          using Form = decltype(form);
+          const int law = Blocks::Find("stiffer");
+          EXPECT_EQ(CornerForces<Form>(law, 1), CornerForces<Form>(Blocks::Find("elastic"), 2));
+          EXPECT_NE(CornerForces<Form>(law, 1), CornerForces<Form>(Blocks::Find("elastic"), 1));
+        });
     });
 }
 

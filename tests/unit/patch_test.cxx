@@ -31,7 +31,7 @@ class Patch : public testing::TestWithParam<std::string> {
     std::string options = GetParam();
     const std::size_t at = options.find("FILE/");
     if (at != std::string::npos) options.replace(at, 4, MeshFolder());
-    scene_ = SetUpScene(options + kRock + " -ts_max_steps 1 -device cpu", PETSC_COMM_SELF);
+    scene_ = SetUpScene(kRock + (" -ts_max_steps 1 -device cpu " + options), PETSC_COMM_SELF);
     ASSERT_NE(scene_, nullptr);
   }
   const Tables &tables() const { return scene_->tables(); }
@@ -100,13 +100,22 @@ TEST_P(AnyPatch, ForcesAndMomentsOfAnyFieldCancel) {
   for (int k = 0; k < 3; ++k) EXPECT_LE(std::fabs(moment[k]), kBar * size * arm);
 }
 
-const auto kJoined = testing::Values(kBox + "-mesh_box_jitter 0.2", kBox + "-mesh_box_shape tet -mesh_box_jitter 0.2",
-                                     kBox + "-mesh_box_shape wedge -mesh_box_jitter 0.2", "-mesh FILE/mixed_41a.msh",
-                                     "-mesh FILE/mixed_22b.msh -dm_refine 1");
+const std::string kJitter = kBox + "-mesh_box_jitter 0.2 ";
+const std::string kSprings = "-block_law spring -block_tension 1e30 -block_cohesion 1e30 -block_friction 0 ";
+const auto kJoined = testing::Values(kJitter, kJitter + "-mesh_box_shape tet", kJitter + "-mesh_box_shape wedge",
+                                     "-mesh FILE/mixed_41a.msh", "-mesh FILE/mixed_22b.msh -dm_refine 1");
+const auto kForms = testing::Values(kJitter + "-block_element bbar", kJitter + "-block_element onepoint",
+                                    kJitter + "-block_element bbar -mesh_box_shape wedge");
+const auto kSpringBoxes = testing::Values(kJitter + kSprings + "-block_poisson 0", kJitter + kSprings,
+                                          kJitter + kSprings + "-block_poisson 0.45");
 INSTANTIATE_TEST_SUITE_P(Joined, Patch, kJoined);
 INSTANTIATE_TEST_SUITE_P(Joined, AnyPatch, kJoined);
+INSTANTIATE_TEST_SUITE_P(Forms, Patch, kForms);
+INSTANTIATE_TEST_SUITE_P(Forms, AnyPatch, kForms);
+INSTANTIATE_TEST_SUITE_P(DiscreteSprings, Patch, kSpringBoxes);
+INSTANTIATE_TEST_SUITE_P(DiscreteSprings, AnyPatch, kSpringBoxes);
 INSTANTIATE_TEST_SUITE_P(Jointed, AnyPatch,
-                         testing::Values(kBox + "-mesh_box_jitter 0.2 -interfaces j -interface_j_on all",
+                         testing::Values(kJitter + "-interfaces j -interface_j_on all",
                                          "-mesh FILE/mixed_41a.msh -interfaces fault -interface_fault_law brittle "
                                          "-interface_tension 1e9 -interface_cohesion 1e9 -interface_friction 30"));
 
