@@ -18,8 +18,8 @@ struct FaceRange {
 
 void Widen(const Mesh &mesh, const std::vector<Material> &materials, const Joint &joint, const Face &face,
            FaceRange *range) {
-  const double young = std::min(materials[mesh.cell_region[face.cell[0]]].young(),
-                                materials[mesh.cell_region[face.cell[1]]].young());
+  const double young =
+      std::min(materials[mesh.cell_region[face.cell[0]]].young(), materials[mesh.cell_region[face.cell[1]]].young());
   JointLaws::Visit(joint.law, [&](auto law) {
     range->fineness =
         std::min(range->fineness, decltype(law)::LargestCell(joint.property, young) / CentreDistance(mesh, face));

@@ -31,8 +31,8 @@ TEST_F(OptionCheckTest, UnknownOnesAreNamedWithTheNearest) {
 }
 
 TEST_F(OptionCheckTest, UnknownFamiliesAreErrors) {
-  for (const char *name : {"-stage_a_solve", "-flow", "-relax_ratio", "-checkpoint_interval",
-                           "-restart", "-damping_local", "-block_residual_cohesion", "-boundary_quiet", "-precision"}) {
+  for (const char *name : {"-stage_a_solve", "-flow", "-relax_ratio", "-checkpoint_interval", "-restart",
+                           "-damping_local", "-boundary_quiet", "-precision"}) {
     ASSERT_EQ(PetscOptionsSetValue(nullptr, name, "1"), PETSC_SUCCESS);
     ExpectLeftRefused({(std::string("unknown option ") + name).c_str()});
     ASSERT_EQ(PetscOptionsClearValue(nullptr, name), PETSC_SUCCESS);
