@@ -141,6 +141,10 @@ nlohmann::json Simulation::Summary() const {
                            {"face_area", set.taken_area},
                            {"area_ratio", set.AreaRatio()}});
   s["broken_springs"] = static_cast<std::int64_t>(last_.broken);
+  if (n_breakable_ > 0) {
+    s["breakable_blocks"] = n_breakable_;
+    s["broken_blocks"] = last_.broken_elements / static_cast<double>(n_breakable_);
+  }
   s["dt"] = dt_;
   s["dt_critical"] = bound_known_ ? nlohmann::json(bound_.dt) : nlohmann::json();
   s["steps"] = steps_;
@@ -161,6 +165,7 @@ nlohmann::json Simulation::Summary() const {
   nlohmann::json stage;  // one so far
   for (const char *key : {"steps", "time", "dt", "dt_critical", "broken_springs", "wall", "energy", "validity"})
     stage[key] = s[key];
+  if (n_breakable_ > 0) stage["broken_blocks"] = s["broken_blocks"];
   s["stages"] = nlohmann::json::array({stage});
   return s;
 }

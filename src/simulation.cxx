@@ -36,7 +36,7 @@ PetscErrorCode Simulation::SetUp() {
     PetscCall(recorder_.Open(comm_, output_dir_, histories_));
     PetscCall(fields_.Open(output_dir_, mesh_, nodes_, tables_, face_interface_));
   }
-  PetscCall(monitors_.Open(comm_));
+  PetscCall(monitors_.Open(comm_, n_breakable_ > 0));
   PetscCall(PetscLogStagePop());
   wall_setup_ = MPI_Wtime() - wall_start_;
   wall_phases_.back().second += MPI_Wtime();
@@ -103,16 +103,20 @@ PetscErrorCode Simulation::BuildModel() {
   PetscCall(BuildRecords(mesh_, nodes_, boundaries_, histories_, &tables_));
   PetscCall(PetscLogEventEnd(events.tables, nullptr, nullptr, nullptr, nullptr));
   PetscCall(DMDestroy(&mesh_.dm));  // from here on the flat arrays serve
-  std::int64_t counts[kShapes + 2] = {0, 0, 0, 0, 0};
+  std::int64_t counts[kShapes + 3] = {};
   for (PetscInt c = 0; c < mesh_.n_owned; ++c) ++counts[static_cast<int>(mesh_.cell_shape[c])];
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
     counts[kShapes] += face_interface_[f] >= 0 && mesh_.faces[f].cell[0] < mesh_.n_owned;
   for (const SpringTable &t : tables_.springs)
     counts[kShapes + 1] += std::count(t.counted.begin(), t.counted.end(), std::uint8_t{1});
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, kShapes + 2, MPI_INT64_T, MPI_SUM, comm_));
+  for (const ElementTable &t : tables_.elements)
+    if (t.judged)
+      counts[kShapes + 2] += std::count_if(t.cell.begin(), t.cell.end(), [&](int c) { return c < mesh_.n_owned; });
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, kShapes + 3, MPI_INT64_T, MPI_SUM, comm_));
   std::copy_n(counts, kShapes, n_cells_);
   n_interface_faces_ = counts[kShapes];
   n_springs_ = counts[kShapes + 1];
+  n_breakable_ = counts[kShapes + 2];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -99,7 +99,7 @@ class Simulation final : public Stepper {
   // figures of the run
   std::vector<std::pair<std::string, double>> wall_phases_;  // of the set-up
   double wall_setup_ = 0, wall_solve_ = 0, wall_output_ = 0, wall_start_ = 0;
-  std::int64_t n_cells_[kShapes] = {0, 0, 0}, n_interface_faces_ = 0, n_springs_ = 0;
+  std::int64_t n_cells_[kShapes] = {0, 0, 0}, n_interface_faces_ = 0, n_springs_ = 0, n_breakable_ = 0;
   PetscInt steps_ = 0;
   double time_ = 0;
   Observed last_;

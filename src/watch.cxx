@@ -38,6 +38,7 @@ PetscErrorCode Simulation::Watch(PetscInt step, double time) {
     sight.last_step = last_step_;
     sight.time = time;
     for (std::int64_t n : n_cells_) sight.elements += static_cast<double>(n);
+    sight.breakable = static_cast<double>(n_breakable_);
     if (monitors_.Observes(step, time, reached, last)) {
       PetscCall(PetscLogEventBegin(events.observe, nullptr, nullptr, nullptr, nullptr));
       std::vector<double> schedule(3 * time_tables_.size());
@@ -74,7 +75,7 @@ PetscErrorCode Simulation::WriteFrame(PetscInt step, double time) {
   PetscCall(ObserveOnHost(tables_, static_cast<int>(mesh_.n_owned), u, v, *history, MakeArgs(dt, reached),
                           schedule.data(), &elements, &springs, &v_now, &last_));
   PetscCall(SumOverRanks(comm_, &last_));
-  PetscCall(fields_.Write(step, time, u, v_now, stress, springs));
+  PetscCall(fields_.Write(step, time, u, v_now, stress, springs, *history));
   PetscCall(WatchValidity(u));
   if (AtEnd() && !recorder_.Empty()) PetscCall(recorder_.RecordLast(step, time, u, v_now.data()));
   PetscCall(PetscLogEventEnd(events.frame, nullptr, nullptr, nullptr, nullptr));

@@ -92,7 +92,7 @@ static std::vector<OptionSpec> &Registry() {
       {"monitor_energy", T::kViewer, "", "", "prints energies and momentum", ""},
       {"monitor_energy_interval", T::kInt, "steps", "100", "every so many steps", ""},
       {"monitor_energy_interval_time", T::kReal, "s", "", "every so many seconds of the scene", ""},
-      {"monitor_convergence", T::kViewer, "", "", "prints kinetic energy, unbalanced force ratio and broken springs", ""},
+      {"monitor_convergence", T::kViewer, "", "", "prints kinetic energy, unbalanced force ratio, broken springs and the share of broken blocks", ""},
       {"monitor_convergence_interval", T::kInt, "steps", "100", "every so many steps", ""},
       {"monitor_convergence_interval_time", T::kReal, "s", "", "every so many seconds of the scene", ""},
       {"histories", T::kNames, "", "", "declares the histories, columns of histories.csv", ""},
@@ -104,7 +104,7 @@ static std::vector<OptionSpec> &Registry() {
       {"output_overwrite", T::kFlag, "", "false", "replaces the results in the folder", ""},
       {"output_interval", T::kInt, "steps", "first and last step", "a frame of fields every so many steps", ""},
       {"output_interval_time", T::kReal, "s", "", "a frame of fields every so many seconds of the scene", ""},
-      {"output_fields", T::kNames, "", "all", "the fields of a frame", "displacement,velocity,stress,region,opening,slip,normal_stress,shear_stress,state,interface"},
+      {"output_fields", T::kNames, "", "all", "the fields of a frame", "displacement,velocity,stress,region,opening,slip,normal_stress,shear_stress,state,interface,plastic_strain,broken,broken_time"},
 
       {"device", T::kWord, "", "auto", "where it is computed; auto: cuda if this build and machine have it", "auto,cpu,cuda"},
       {"central_way", T::kWord, "", "auto", "way of computing a step", "auto,reference"},

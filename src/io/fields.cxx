@@ -9,9 +9,9 @@
 
 namespace cdem {
 
-static const std::vector<std::string> kFields = {"displacement", "velocity", "stress",        "region",
-                                                 "opening",      "slip",     "normal_stress", "shear_stress",
-                                                 "state",        "interface"};
+static const std::vector<std::string> kFields = {
+    "displacement", "velocity", "stress",    "region",         "opening", "slip",       "normal_stress",
+    "shear_stress", "state",    "interface", "plastic_strain", "broken",  "broken_time"};
 
 PetscErrorCode FieldOutput::Create(MPI_Comm comm, Options &options) {
   PetscFunctionBeginUser;
@@ -52,6 +52,7 @@ PetscErrorCode FieldOutput::Open(const std::string &dir, const Mesh &mesh, const
     vtk.cell_start.push_back(static_cast<int>(vtk.cell_points.size()));
     region_.push_back(mesh.cell_region[c]);
   }
+  PetscCall(FindElementFields(tables, &with_plastic_, &with_broken_));
   PetscCall(blocks_.Create(comm_, dir, "fields", vtk));
   PetscCall(OpenInterfaces(dir, face_interface));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -154,12 +155,21 @@ PetscErrorCode FieldOutput::WriteInterfaces(PetscInt step, double time, const do
 }
 
 PetscErrorCode FieldOutput::Write(PetscInt step, double time, const double *u, const std::vector<double> &v_now,
-                                  const std::vector<double> &stress, const SpringResults &springs) {
+                                  const std::vector<double> &stress, const SpringResults &springs,
+                                  const Histories &history) {
   PetscFunctionBeginUser;
+  ElementFields of_history;
+  FillElementFields(*tables_, static_cast<int>(mesh_->n_owned), history.elements, with_plastic_, with_broken_,
+                    &of_history);
   std::vector<VtkField> fields = {{"displacement", true, 3, u},
                                   {"velocity", true, 3, v_now.data()},
                                   {"stress", false, 6, stress.data()},
                                   {"region", false, 1, region_.data()}};
+  if (with_plastic_) fields.push_back({"plastic_strain", false, 1, of_history.plastic_strain.data()});
+  if (with_broken_) {
+    fields.push_back({"broken", false, 1, of_history.broken.data()});
+    fields.push_back({"broken_time", false, 1, of_history.broken_time.data()});
+  }
   fields.erase(std::remove_if(fields.begin(), fields.end(), [&](const VtkField &f) { return !Wants(f.name.c_str()); }),
                fields.end());
   PetscCall(blocks_.WriteFrame(step, time, fields));

@@ -2,6 +2,7 @@
 // state), each as a series of its own.
 #pragma once
 #include "forces/backend.hpp"
+#include "forces/element_fields.hpp"
 #include "io/vtk_series.hpp"
 
 namespace cdem {
@@ -15,9 +16,9 @@ class FieldOutput {
   /// Writes the mesh files into a folder that exists.
   PetscErrorCode Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
                       const std::vector<int> &face_interface);
-  /// One frame from host copies at u(n). [in] v_now: [n_owned][3]; stress: [owned cells][6]; springs: with each force.
+  /// One frame from host copies at u(n) and the histories of the step before. [in] v_now: [n_owned][3]; stress: [owned cells][6]; springs: with each force.
   PetscErrorCode Write(PetscInt step, double time, const double *u, const std::vector<double> &v_now,
-                       const std::vector<double> &stress, const SpringResults &springs);
+                       const std::vector<double> &stress, const SpringResults &springs, const Histories &history);
 
  private:
   PetscErrorCode OpenInterfaces(const std::string &dir, const std::vector<int> &face_interface);
@@ -32,7 +33,7 @@ class FieldOutput {
   std::vector<double> region_, interface_;
   std::vector<int> row_of_face_;      // row of the interface mesh, -1 otherwise
   std::vector<PetscInt> face_nodes_;  // per point of the interface mesh: node on the side of cell[0]
-  bool with_interfaces_ = false;
+  bool with_interfaces_ = false, with_plastic_ = false, with_broken_ = false;
   VtkSeries blocks_, interfaces_;
 };
 

@@ -34,8 +34,10 @@ PetscErrorCode PrintConvergence(PetscViewer viewer, const Sight &s) {
   const double residual = o.residual_count > 0 ? o.residual_sum / o.residual_count : 0;
   const double force = o.force_count > 0 ? o.force_sum / o.force_count : 0;
   const double unbalanced = force > 0 ? residual / force : (residual > 0 ? 1 : 0);  // 0/0 is in balance
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%lld %.17g %.17g %.17g %lld\n", static_cast<long long>(s.step), s.time,
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%lld %.17g %.17g %.17g %lld", static_cast<long long>(s.step), s.time,
                                    o.kinetic, unbalanced, static_cast<long long>(o.broken)));
+  if (s.breakable > 0) PetscCall(PetscViewerASCIIPrintf(viewer, " %.17g", o.broken_elements / s.breakable));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -44,7 +46,7 @@ PetscErrorCode PrintConvergence(PetscViewer viewer, const Sight &s) {
 const MonitorRow kMonitors[] = {
     {"monitor_progress", nullptr, false, PrintProgress},
     {"monitor_energy", "# step time kinetic strain spring form momentum_x momentum_y momentum_z", true, PrintEnergy},
-    {"monitor_convergence", "# step time kinetic unbalanced broken", true, PrintConvergence},
+    {"monitor_convergence", "# step time kinetic unbalanced broken", true, PrintConvergence, " broken_blocks"},
 };
 const int kMonitorCount = 3;
 
@@ -94,7 +96,7 @@ PetscErrorCode Monitors::ReadOptions(Options &options, PetscInt last_step) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Monitors::Open(MPI_Comm comm) {
+PetscErrorCode Monitors::Open(MPI_Comm comm, bool breakable) {
   PetscFunctionBeginUser;
   std::vector<Active> open;
   for (Active &a : active_) {
@@ -112,7 +114,8 @@ PetscErrorCode Monitors::Open(MPI_Comm comm) {
       PetscCall(ViewerFromOption(comm, option.c_str(), &a.viewer, &a.format, &set));
       if (!set || !a.viewer) continue;
     }
-    if (a.row->header) PetscCall(PetscViewerASCIIPrintf(a.viewer, "%s\n", a.row->header));
+    const char *more = breakable && a.row->of_breakable ? a.row->of_breakable : "";
+    if (a.row->header) PetscCall(PetscViewerASCIIPrintf(a.viewer, "%s%s\n", a.row->header, more));
     open.push_back(a);
   }
   active_ = open;

@@ -15,6 +15,7 @@ struct Sight {
   PetscInt step = 0, last_step = PETSC_INT_MAX;  ///< last_step: where the run ends, as far as known
   double time = 0, wall = 0;                     ///< s; wall since the solve began
   double elements = 0;                           ///< of the whole mesh
+  double breakable = 0;                          ///< elements of laws that break them
   Observed observed;
 };
 
@@ -24,6 +25,7 @@ struct MonitorRow {
   const char *header;
   bool observes;  ///< needs the sums of an observation
   PetscErrorCode (*print)(PetscViewer viewer, const Sight &sight);
+  const char *of_breakable = nullptr;  ///< end of the header in scenes whose elements may break
 };
 /// The table of monitors: a new one is a row here.
 extern const MonitorRow kMonitors[];
@@ -42,7 +44,7 @@ class Monitors {
   /// [in] last_step: number of steps of the run if known, else PETSC_INT_MAX.
   PetscErrorCode ReadOptions(Options &options, PetscInt last_step);
   /// Creates the viewers, and with them their files; when everything else has been checked.
-  PetscErrorCode Open(MPI_Comm comm);
+  PetscErrorCode Open(MPI_Comm comm, bool breakable);
   PetscInt ToNext(PetscInt step, double time, double dt) const;
   bool Due(PetscInt step, double time, double dt, bool last) const;
   bool Observes(PetscInt step, double time, double dt, bool last) const;

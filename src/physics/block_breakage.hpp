@@ -9,6 +9,7 @@ namespace cdem {
 struct Breakage : BlockLawDefaults {
   static constexpr const char *kName = "breakage";
   static constexpr int kState = 7;  ///< plastic strain (true shears), plastic shear strain; of broken elements
+  static constexpr int kPlasticShear = 6;
   static constexpr bool kJudgesMean = true;
   /// Pa; strength: 2 c cos(phi)
   enum { kLambda, kMu, kSinPhi, kStrength, kTension, kResidualSin, kResidualStrength, kParams };

@@ -9,6 +9,7 @@ namespace cdem {
 struct DruckerPrager : BlockLawDefaults {
   static constexpr const char *kName = "drucker_prager";
   static constexpr int kState = 7;  ///< plastic strain (true shears), plastic shear strain
+  static constexpr int kPlasticShear = 6;
   static constexpr bool kNeedsSize = true;
   enum Cone { kOuter, kMiddle, kInscribed };
   /// Slope of the cone, of the flow [-], shear strength at I1 = 0 and cut-off [Pa]; what they lose down to the residual
@@ -71,6 +72,9 @@ struct DruckerPrager : BlockLawDefaults {
 
   static std::string Check(const double *p) {
     std::string wrong = CheckDilation(p[kFriction], p[kDilation]);
+    const bool residual = p[kResidualC] != 0 || std::isfinite(p[kResidualPhi]) || std::isfinite(p[kResidualT]);
+    if (wrong.empty() && residual && !Softens(p))
+      wrong = "the residual strength is reached by softening: give gf in J/m^2";
     if (!Softens(p) || !wrong.empty()) return wrong;
     wrong = CheckNotAbove("residual_cohesion", p[kResidualC], "cohesion", p[kCohesion]);
     if (wrong.empty() && std::isfinite(p[kResidualPhi]))

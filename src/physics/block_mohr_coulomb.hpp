@@ -8,6 +8,7 @@ namespace cdem {
 struct MohrCoulomb : BlockLawDefaults {
   static constexpr const char *kName = "mohr_coulomb";
   static constexpr int kState = 7;  ///< plastic strain (true shears), plastic shear strain
+  static constexpr int kPlasticShear = 6;
   enum { kLambda, kMu, kSinPhi, kSinPsi, kStrength, kTension, kParams };  ///< Pa; strength: 2 c cos(phi)
 
   static constexpr std::array<Property, 6> kProperties = {{Elastic::kProperties[0], Elastic::kProperties[1],

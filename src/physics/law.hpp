@@ -43,6 +43,7 @@ struct BlockLawDefaults {
   static constexpr bool kJudgesMean = false;  ///< breaks by the element's mean stress
   static constexpr bool kAtCorners =
       false;  ///< for forms whose points are corners: given vectors along their faces' normals
+  static constexpr int kPlasticShear = -1;   ///< which number of the history is the plastic shear strain; -1: none
   static constexpr bool kNeedsSize = false;  ///< parameters depend on the size of the element
   /// What is wrong with a combination of properties, or an empty string.
   static std::string Check(const double *) { return {}; }

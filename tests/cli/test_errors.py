@@ -15,6 +15,7 @@ GOOD = {
     "block_poisson": 0.25, "block_density": 2000.0, "gravity": (0, 0, -9.81), "boundaries": "zmin",
     "boundary_zmin_fix": "xyz", "ts_max_steps": 5, "output": "out",
 }
+MOHR = {"block_law": "mohr_coulomb", "block_cohesion": 1e6, "block_friction": 30.0}
 JOINTS = {"interfaces": "joints", "interface_joints_on": "all", "interface_joints_law": "brittle",
           "interface_joints_tension": 1e5, "interface_joints_cohesion": 1e5, "interface_joints_friction": 30.0}
 DISCS = {"joints": "j", "joint_j_p32": 1.0, "joint_j_dip": 30.0, "joint_j_dip_direction": 40.0,
@@ -103,6 +104,19 @@ OPTIONS = {
     # laws and their numbers
     "unknown block law": ({"block_law": "elastick"}, ["-block_law", "elastick", "elastic"]),
     "unknown interface law": ({**JOINTS, "interface_joints_law": "britle"}, ["-interface_joints_law", "britle", "brittle"]),
+    "blocks' friction of 95 degrees": ({**MOHR, "block_friction": 95.0}, ["-block_friction", "95", "89.9"]),
+    "blocks' negative tension": ({**MOHR, "block_tension": -1.0}, ["-block_tension", "-1", "at least 0"]),
+    "blocks' dilation above friction": ({**MOHR, "block_dilation": 40.0}, ["box", "dilation 40", "friction 30"]),
+    "blocks without cohesion": ({**MOHR, "block_cohesion": DROP}, ["box", "-block_box_cohesion", "Pa"]),
+    "breakage without tension": ({**MOHR, "block_law": "breakage"}, ["box", "tension", "Pa"]),
+    "residual cohesion above cohesion": ({**MOHR, "block_law": "breakage", "block_tension": 1e5,
+                                          "block_residual_cohesion": 2e6}, ["residual_cohesion", "2e+06", "1e+06"]),
+    "unknown cone": ({**MOHR, "block_law": "drucker_prager", "block_cone": "round"},
+                     ["-block_cone", "round", "outer", "middle", "inscribed"]),
+    "residual strength without gf": ({**MOHR, "block_law": "drucker_prager", "block_residual_cohesion": 1e5}, ["box", "gf"]),
+    "softening to the same strength": ({**MOHR, "block_law": "drucker_prager", "block_gf": 100.0,
+                                        "block_residual_cohesion": 1e6}, ["gf", "residual_cohesion"]),
+    "cone of another law": ({**MOHR, "block_cone": "outer"}, ["-block_cone"]),
     "no material": ({"block_law": DROP, "block_young": DROP, "block_poisson": DROP, "block_density": DROP}, ["box"]),
     "no density": ({"block_density": DROP}, ["density", "box"]),
     "no young": ({"block_young": DROP}, ["young", "box"]),

@@ -38,6 +38,11 @@ void Compare(const std::string &scene, double bar) {
       EXPECT_EQ(gpu.history[g].state, cpu.history[g].state);
       EXPECT_TRUE(SameBits(gpu.history[g].values, cpu.history[g].values));
     }
+    for (std::size_t g = 0; ranks == 1 && g < cpu.elements.size(); ++g) {
+      EXPECT_EQ(gpu.elements[g].state, cpu.elements[g].state);
+      EXPECT_TRUE(SameBits(gpu.elements[g].value, cpu.elements[g].value));
+      EXPECT_TRUE(SameBits(gpu.elements[g].broken_time, cpu.elements[g].broken_time));
+    }
   } else {
     EXPECT_LT(u, bar);
     EXPECT_LT(v, bar);
@@ -90,6 +95,37 @@ TEST(CpuGpu, EveryLawThatBreaks) {
     }
 }
 
+TEST(CpuGpu, FailingBlocks) {
+  for (const char *law : kFailingLaws)
+    for (const char *shape : {"hex", "tet", "wedge"})
+      for (const char *beta : {"", " -damping_beta 2e-5"}) {
+        const std::string scene = FailingScene(shape, law) + beta + " -ts_max_steps 2000";
+        SCOPED_TRACE(scene);
+        if (kExact) {
+          Compare(scene, 0);
+          continue;
+        }
+        const SceneResult cpu = RunScene(scene + " -device cpu"), gpu = RunScene(scene + " -device cuda"),
+                          again = RunScene(scene + " -device cuda");
+        ASSERT_FALSE(cpu.failed || gpu.failed || again.failed);
+        EXPECT_TRUE(SameBits(gpu.u, again.u)) << "run = run on the GPU";
+        EXPECT_GT(Touched(cpu), 50) << "the scene must fail";
+        EXPECT_NEAR(Touched(gpu), Touched(cpu), 0.1 * Touched(cpu));
+        EXPECT_NEAR(gpu.observed.broken_elements, cpu.observed.broken_elements, 0.1 * cpu.observed.broken_elements);
+      }
+}
+
+TEST(CpuGpu, BlocksUpToTheirStrength) {
+  for (const char *law : kFailingLaws) {
+    const std::string scene = FailingScene("hex", law);
+    int steps = 1000;  // the longest run of this scene in which nothing fails
+    while (steps > 1 && Touched(RunScene(scene + " -device cpu -ts_max_steps " + std::to_string(steps))) > 0)
+      steps /= 2;
+    ASSERT_GT(steps, 5);
+    Compare(scene + " -ts_max_steps " + std::to_string(steps), 1e-10);
+  }
+}
+
 TEST(CpuGpu, JointedUpToTheFirstBreak) {
   const std::string scene = BreakingScene("hex");
   int steps = 1000;  // the longest run of this scene in which nothing breaks
@@ -106,6 +142,8 @@ TEST(GpuRanks, DoNotMatter) {
   for (const char *law : kBreakingLaws)
     ExpectRanksDoNotMatter(BreakingScene("hex", law) + " -ts_max_steps 1000 -device cuda");
   ExpectRanksDoNotMatter(std::string(kBrick) + " -ts_max_steps 1000 -device cuda");
+  for (const char *law : kFailingLaws)
+    ExpectRanksDoNotMatter(FailingScene("hex", law) + " -ts_max_steps 1000 -device cuda");
 }
 
 TEST(Gpu, BatchesDoNotMatter) {

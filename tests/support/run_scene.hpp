@@ -142,6 +142,27 @@ inline std::string BreakingScene(const std::string &shape, const std::string &la
 }
 inline const char *const kBreakingLaws[] = {"brittle", "brittle dilating", "softening", "softening dilating"};
 
+inline const char *const kFailingLaws[] = {"drucker_prager", "mohr_coulomb", "breakage"};
+/// A body whose base is held and whose top is struck: much of it fails, by this block law.
+inline std::string FailingScene(const std::string &shape, const std::string &law) {
+  std::string numbers = " -block_cohesion 3e5 -block_friction 30 -block_tension 1e5";
+  if (law == "drucker_prager")
+    numbers += " -block_cone middle -block_dilation 5 -block_gf 200 -block_residual_cohesion 1e5";
+  if (law == "mohr_coulomb") numbers += " -block_dilation 10";
+  if (law == "breakage") numbers += " -block_residual_friction 20";
+  return "-mesh box -mesh_box_shape " + shape + " -mesh_box_cells 6,5,4 -mesh_box_size 6,5,4 -mesh_box_jitter 0.15" +
+         kRock + " -block_law " + law + numbers +
+         " -gravity 0,0,-9.81 -boundaries zmin,zmax -boundary_zmin_fix xyz -boundary_zmax_velocity 0.4,0.1,0.3 "
+         "-boundary_zmax_table pulse -tables pulse -table_pulse_type sine -table_pulse_frequency 40";
+}
+/// Elements in whose history something stands.
+inline int Touched(const SceneResult &result) {
+  int touched = 0;
+  for (const ElementHistories &table : result.elements)
+    for (std::uint8_t state : table.state) touched += state != 0;
+  return touched;
+}
+
 /// A run on all ranks against the same run on each rank by itself: the same to the last bit.
 inline void ExpectRanksDoNotMatter(const std::string &options) {
   const SceneResult alone = RunScene(options, PETSC_COMM_SELF, true),

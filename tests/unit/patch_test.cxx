@@ -109,6 +109,14 @@ const auto kForms = testing::Values(kJitter + "-block_element bbar", kJitter + "
 const auto kSpringBoxes = testing::Values(kJitter + kSprings + "-block_poisson 0", kJitter + kSprings,
                                           kJitter + kSprings + "-block_poisson 0.45");
 INSTANTIATE_TEST_SUITE_P(Joined, Patch, kJoined);
+const std::string kStrong = " -block_cohesion 1e9 -block_friction 30 -block_tension 1e8 -block_law ";
+INSTANTIATE_TEST_SUITE_P(Laws, Patch,
+                         testing::Values(kBox + "-mesh_box_jitter 0.2" + kStrong + "drucker_prager",
+                                         kBox + "-mesh_box_jitter 0.2" + kStrong + "mohr_coulomb",
+                                         kBox + "-mesh_box_jitter 0.2" + kStrong + "breakage",
+                                         "-mesh FILE/mixed_41a.msh" + kStrong + "drucker_prager",
+                                         "-mesh FILE/mixed_41a.msh" + kStrong + "mohr_coulomb",
+                                         "-mesh FILE/mixed_41a.msh" + kStrong + "breakage"));
 INSTANTIATE_TEST_SUITE_P(Joined, AnyPatch, kJoined);
 INSTANTIATE_TEST_SUITE_P(Forms, Patch, kForms);
 INSTANTIATE_TEST_SUITE_P(Forms, AnyPatch, kForms);

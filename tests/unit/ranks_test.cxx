@@ -14,6 +14,14 @@ TEST(Ranks, DoNotMatterToAnyLawThatBreaks) {
     ExpectRanksDoNotMatter(BreakingScene("wedge", law) + " -ts_max_steps 1000 -device cpu");
 }
 
+TEST(Ranks, DoNotMatterWhenBlocksFail) {
+  for (const char *law : kFailingLaws) {
+    for (const char *shape : {"hex", "tet", "wedge"})
+      ExpectRanksDoNotMatter(FailingScene(shape, law) + " -ts_max_steps 600 -device cpu");
+    ExpectRanksDoNotMatter(FailingScene("hex", law) + " -ts_max_steps 600 -damping_beta 2e-5 -device cpu");
+  }
+}
+
 TEST(Ranks, DoNotMatterWhenJoined) { ExpectRanksDoNotMatter(std::string(kBrick) + " -ts_max_steps 500 -device cpu"); }
 
 TEST(Ranks, DoNotMatterWithOneCellEach) {

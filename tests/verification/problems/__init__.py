@@ -1,2 +1,3 @@
 """The problems, in the order of the table."""
-from . import waves, ends, joint_waves, statics, beam, joints, softening, dilation, incline, damping, conservation  # noqa: F401
+from . import waves, ends, joint_waves, statics, beam, joints, softening, dilation, incline, strength, damping, \
+    conservation  # noqa: F401
