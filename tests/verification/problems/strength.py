@@ -25,7 +25,7 @@ def specimen(law, strain, frames, confining=0.0, **numbers):
         "boundaries": ["xmin", "ymin", "zmin", "zmax"], "boundary_xmin_fix": "x", "boundary_ymin_fix": "y",
         "boundary_zmin_fix": "z", **top, "tables": ["path"], "table_path_type": "ramp", "table_path_delay": settle,
         "damping_alpha": alpha, "ts_max_time": settle + time, "output_interval_time": (settle + time) / frames,
-        "output_fields": ("stress", "plastic_strain", "broken", "broken_time")}
+        "output_fields": ("displacement", "stress", "plastic_strain", "broken", "broken_time")}
     if confining:
         options["boundaries"] += ["xmax", "ymax"]
         for side in ("xmax", "ymax"):
@@ -67,10 +67,15 @@ def drucker_prager_strength(lab):
         a, k = SIN / divisor, 3 * COHESION * COS / divisor
         for confining in (0.0, 5e6):
             strength = (root3 * k + (1 + 2 * root3 * a) * confining) / (1 - root3 * a)
-            found, _ = peak(lab, -1, "drucker_prager", strength, confining=confining, cone=cone)
+            found, results = peak(lab, -1, "drucker_prager", strength, confining=confining, cone=cone)
             formula = "-(s3 k + (1 + 2 s3 a) p)/(1 - s3 a), s3 = sqrt(3)" if confining else "-s3 k/(1 - s3 a), s3 = sqrt(3)"
             rows.append(relative(f"Drucker-Prager, {cone} cone, strength at p = {confining / 1e6:g} MPa, Pa", formula,
                                  -strength, found, BAR, MESH))
+            if not confining:  # without dilation the axis takes 1/s3 of it
+                last = results.last_frame()
+                shortened = -last.point_data["displacement"][:, 2].min() / 2.0
+                rows.append(worst(f"Drucker-Prager, {cone} cone, plastic shear strain in the end", "s3 (strain - sigma_c/E)",
+                                  root3 * (shortened - strength / YOUNG), last.cell_data["plastic_strain"], BAR, MESH))
     return rows
 
 
