@@ -94,10 +94,13 @@ struct PointOf {
     if (Law::kJudgesMean) changed = changed & (history->tension | history->shear);  // its neighbours in the lanes
     if (!Any(changed)) return;
     history->changed = history->changed | changed;
-    if (kObserve) return;
-    CDEM_UNROLL for (int i = 0; i < Law::kState; ++i) {
-      const int at = g * Law::kState + i;
-      history->Set(at, Law::kJudgesMean ? (changed ? state[i] : history->Get(at)) : state[i]);
+    if constexpr (!kObserve) {
+      CDEM_UNROLL for (int i = 0; i < Law::kState; ++i) {
+        const int at = g * Law::kState + i;
+        history->Set(at, Law::kJudgesMean ? (changed ? state[i] : history->Get(at)) : state[i]);
+      }
+    } else {
+      (void)g, (void)state;
     }
   }
   CDEM_HD void Add(const T strain[6], T volume, const T stress[6]) const {

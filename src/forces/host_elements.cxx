@@ -1,3 +1,4 @@
+#include "forces/dilatation.hpp"
 #include "forces/host_gather.hpp"
 #include "forces/host_passes.hpp"
 
@@ -17,7 +18,31 @@ struct ElementPass {
   double *f;
   int n_owned_cells;
   ElementResults *results;  ///< of observing passes
+  Averages *averages;       ///< of forms that average
 };
+
+/// Takes the dilatations of u and beta v from the nodes.
+template <bool kBeta>
+void SpreadDilatation(const ElementPass &pass, const ElementTable &t, int e, const Lanes x[4][3], Lanes u[4][3],
+                      Lanes rate[4][3]) {
+  Lanes of_node[2][4];
+  for (int a = 0; a < 4; ++a)
+    for (int l = 0; l < kLanes; ++l)
+      for (int r = 0; r <= kBeta; ++r)
+        of_node[r][a][l] = pass.averages->dilatation[(1 + kBeta) * t.Layered(pass.tables.layers, a, e + l) + r];
+  TetBbar::Spread(x, of_node[0], u);
+  if (kBeta) TetBbar::Spread(x, of_node[1], rate);
+}
+
+/// Keeps corner forces until their pressure has been averaged, and adds the pressure to the nodes.
+void KeepForces(const ElementPass &pass, const ElementTable &t, int e, const Lanes x[4][3], const Lanes f[4][3]) {
+  std::vector<double> &force = pass.averages->force[&t - pass.tables.elements.data()];
+  for (int a = 0; a < 4; ++a)
+    for (int k = 0; k < 3; ++k) StoreAs(&force[static_cast<std::size_t>(3 * a + k) * t.n_pad + e], f[a][k]);
+  const Lanes pressure = TetBbar::Pressure(x, f);
+  for (int l = 0; l < std::min(kLanes, t.n - e); ++l)
+    for (int a = 0; a < 4; ++a) pass.averages->pressure[t.Layered(pass.tables.layers, a, e + l)] += pressure[l];
+}
 
 /// Lanes of history of the elements from e on.
 ElementHistory<Lanes> Recall(const ElementTable &t, ElementHistories *h, int e) {
@@ -58,6 +83,7 @@ void ElementLoop(const ElementPass &pass, const ElementTable &t, ElementHistorie
         for (int k = 0; k < 3; ++k) rate[a][k] = pass.beta * rate[a][k];
       }
     }
+    if constexpr (Form::kAverages) SpreadDilatation<kBeta>(pass, t, e, x, w, rate);
     LoadParams(pass.tables.block_param, &t.material[e], Law::kParams, param);
     ElementSums<Lanes> sums;
     ElementHistory<Lanes> history;
@@ -66,12 +92,13 @@ void ElementLoop(const ElementPass &pass, const ElementTable &t, ElementHistorie
     if constexpr (Law::kState > 0 && !kObserve)
       if (Any(history.changed | history.tension | history.shear)) Commit(history, pass.time, e, h);
 
+    if constexpr (Form::kAverages) KeepForces(pass, t, e, x, force);
     alignas(sizeof(Lanes)) double out[corners][3][kLanes];
     for (int a = 0; a < corners; ++a)
       for (int k = 0; k < 3; ++k) StoreAs(out[a][k], force[a][k]);
     const int live = std::min(kLanes, t.n - e);
     for (int l = 0; l < live; ++l) {
-      CDEM_UNROLL for (int a = 0; a < corners; ++a) {
+      CDEM_UNROLL for (int a = 0; a < corners && !Form::kAverages; ++a) {
         double *to = pass.f + 3 * static_cast<std::ptrdiff_t>(t.node[a * stride + e + l]);
         to[0] += out[a][0][l];
         to[1] += out[a][1][l];
@@ -94,20 +121,36 @@ void ElementLoop(const ElementPass &pass, const ElementTable &t, ElementHistorie
 }
 
 template <bool kBeta, bool kObserve>
-void Elements(const ElementPass &pass, std::vector<ElementHistories> &history) {
-  for (std::size_t g = 0; g < pass.tables.elements.size(); ++g) {
-    const ElementTable &t = pass.tables.elements[g];
-    VisitBlock(t.shape, t.form, t.law, [&](auto form, auto law) {
-      ElementLoop<decltype(form), decltype(law), kBeta, kObserve>(pass, t, &history[g]);
-    });
+void ElementsOf(const ElementPass &pass, std::size_t g, std::vector<ElementHistories> &history) {
+  const ElementTable &t = pass.tables.elements[g];
+  VisitBlock(t.shape, t.form, t.law, [&](auto form, auto law) {
+    ElementLoop<decltype(form), decltype(law), kBeta, kObserve>(pass, t, &history[g]);
+  });
+}
+
+template <bool kBeta, bool kObserve>
+void Elements(ElementPass pass, std::vector<ElementHistories> &history) {
+  static thread_local Averages averages;  // keeps its memory from step to step
+  const Tables &tables = pass.tables;
+  if (tables.layers > 0) {
+    pass.averages = &averages;
+    PetscCallAbort(tables.comm, AverageDilatation(tables, pass.u, pass.v, kBeta ? pass.beta : 0, &averages));
+    for (std::size_t g = 0; g < tables.elements.size(); ++g)
+      if (tables.elements[g].averages) ElementsOf<kBeta, kObserve>(pass, g, history);
+    PetscCallAbort(tables.comm, AveragePressure(tables, &averages));
   }
+  for (std::size_t g = 0; g < tables.elements.size(); ++g)
+    if (tables.elements[g].averages)
+      AddAveraged(tables, g, averages, pass.f);
+    else
+      ElementsOf<kBeta, kObserve>(pass, g, history);
 }
 
 }  // namespace
 
 void HostElements(const Tables &tables, const double *u, const double *v, double beta, double time,
                   std::vector<ElementHistories> &history, double *f) {
-  const ElementPass pass{tables, u, v, beta, time, f, 0, nullptr};
+  const ElementPass pass{tables, u, v, beta, time, f, 0, nullptr, nullptr};
   if (beta != 0)
     Elements<true, false>(pass, history);
   else
@@ -117,7 +160,7 @@ void HostElements(const Tables &tables, const double *u, const double *v, double
 void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, const double *v, double beta,
                          const std::vector<ElementHistories> &history, double *f, ElementResults *results) {
   auto &unchanged = const_cast<std::vector<ElementHistories> &>(history);  // an observing pass only reads
-  const ElementPass pass{tables, u, v, beta, 0, f, n_owned_cells, results};
+  const ElementPass pass{tables, u, v, beta, 0, f, n_owned_cells, results, nullptr};
   if (beta != 0)
     Elements<true, true>(pass, unchanged);
   else

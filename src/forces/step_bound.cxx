@@ -107,6 +107,8 @@ double LanesBound(const Canonical *batch) {
   return largest * kRoundingMargin;
 }
 
+/// Forms that average their dilatation are bounded as if they did not: a region has one bulk modulus, averaging is a
+/// contraction in the norm that its volumes weigh, and so the energy only falls.
 template <class Form>
 double TableBound(const Tables &tables, const ElementTable &t, const std::vector<Material> &materials) {
   std::unordered_set<std::uint64_t> seen;

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/lanes.hpp"
+#include "forces/dilatation.hpp"
 #include "forces/params.hpp"
 #include "mesh/geometry.hpp"
 #include "physics/elements.hpp"
@@ -117,6 +118,7 @@ void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Mater
     VisitBlock(t.shape, t.form, t.law, [&](auto form, auto law) {
       t.states = decltype(form)::kPoints * decltype(law)::kState;
       t.judged = decltype(law)::kJudgesMean;
+      t.averages = decltype(form)::kAverages;
     });
     t.n = static_cast<int>(t.cell.size());
     t.n_pad = Padded(t.n);
@@ -259,6 +261,7 @@ PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vect
   PetscCall(CheckOwnParams(mesh, materials));
   StartBlockParams(materials, tables);
   BuildElements(mesh, nodes, materials, tables);
+  PetscCall(BuildAveraging(mesh, materials, tables));
   PetscCall(BuildMass(mesh, nodes, materials, tables));
   BuildSprings(mesh, nodes, face_interface, materials, joints, tables);
   CdemCheck(tables->n_slots < static_cast<std::size_t>(std::numeric_limits<int>::max()), PETSC_COMM_SELF,

@@ -15,15 +15,23 @@ struct ElementTable {
   Shape shape = Shape::kHex;
   int form = 0, law = 0;  ///< numbers in the shape's list of forms and in BlockLaws
   int corners = 0;
-  int states = 0;       ///< doubles of history an element (points times kState); 0: none, and no state byte
-  bool judged = false;  ///< the law breaks elements, and the time of it is kept
+  int states = 0;         ///< doubles of history an element (points times kState); 0: none, and no state byte
+  bool judged = false;    ///< the law breaks elements, and the time of it is kept
+  bool averages = false;  ///< the form averages its dilatation over neighbours: forces/dilatation.hpp
   int n = 0, n_pad = 0;
   std::vector<int> node;      ///< [corner][n_pad] local node
   std::vector<int> material;  ///< [n_pad] row of the parameter table
   std::vector<int> region;    ///< [n_pad] region of the mesh
   std::vector<int> cell;      ///< [n] local cell; below Mesh::n_owned: counted by this rank
+  std::vector<int> layer;     ///< [n_pad] of Tables::layers; empty unless it averages
   std::size_t corner_start =
       0;  ///< first slot of this table among the corner forces of all tables [slots of 3 doubles]
+
+  int Node(int corner, int e) const { return node[static_cast<std::size_t>(corner) * n_pad + e]; }
+  /// Place of a corner in arrays [node][layer].
+  std::size_t Layered(int layers, int corner, int e) const {
+    return static_cast<std::size_t>(Node(corner, e)) * layers + layer[e];
+  }
 };
 
 /// The springs of one interface law, in the order of (global cell, local face, corner): those with an owned node and
@@ -69,8 +77,10 @@ struct Tables {
   std::vector<double> inverse_mass;  ///< [n_owned] 1/kg
   std::vector<ElementTable> elements;
   std::vector<SpringTable> springs;
-  std::vector<double> block_param;  ///< [row][kMaxParams]
-  std::vector<double> joint_param;  ///< [row][kMaxParams]
+  std::vector<double> block_param;     ///< [row][kMaxParams]
+  std::vector<double> joint_param;     ///< [row][kMaxParams]
+  int layers = 0;                      ///< regions whose elements average their dilatation; 0: no averaging anywhere
+  std::vector<double> inverse_volume;  ///< [n_owned][layer] 1/m^3, of a node's elements of that layer; 0 without any
   NodeRecords records;
   int n_watch = 0;                ///< slots of the history buffer on this rank
   int n_tables = 1;               ///< time tables; table 0 is the constant 1

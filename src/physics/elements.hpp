@@ -5,12 +5,13 @@
 #include "physics/element_hex_onepoint.hpp"
 #include "physics/element_hex_spring.hpp"
 #include "physics/element_tet.hpp"
+#include "physics/element_tet_bbar.hpp"
 #include "physics/element_wedge.hpp"
 #include "physics/laws.hpp"
 
 namespace cdem {
 
-using TetForms = LawList<TetFull>;
+using TetForms = LawList<TetFull, TetBbar>;
 using WedgeForms = LawList<WedgeFull, WedgeBbar>;
 using HexForms = LawList<HexFull, HexBbar, HexOnePoint, HexSpring>;
 

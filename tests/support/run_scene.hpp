@@ -162,6 +162,27 @@ inline int Touched(const SceneResult &result) {
     for (std::uint8_t state : table.state) touched += state != 0;
   return touched;
 }
+/// A joined block that is struck at the top: for element forms and block laws, which further options name.
+inline std::string StruckScene(const std::string &shape, const std::string &block) {
+  return "-mesh box -mesh_box_shape " + shape + " -mesh_box_cells 6,5,4 -mesh_box_size 6,5,4 -mesh_box_jitter 0.15" +
+         kRock +
+         " -gravity 0,0,-9.81 -boundaries zmin,zmax -boundary_zmin_fix xyz -boundary_zmax_velocity 0.4,0.1,0.3 "
+         "-boundary_zmax_table pulse -tables pulse -table_pulse_type sine -table_pulse_frequency 40 " +
+         block;
+}
+/// Every element form of hexahedra, wedges and tetrahedra but `full`, with and without damping by stiffness.
+inline std::vector<std::string> FormScenes() {
+  std::vector<std::string> scenes;
+  for (const char *damping : {"", " -damping_beta 2e-5"}) {
+    for (const char *shape : {"hex", "wedge", "tet"})
+      scenes.push_back(StruckScene(shape, std::string("-block_element bbar") + damping));
+    scenes.push_back(StruckScene("hex", std::string("-block_element onepoint") + damping));
+    scenes.push_back(StruckScene("hex", std::string("-block_law spring -block_tension 1e6 -block_cohesion 2e6 "
+                                                    "-block_friction 30 -block_residual_friction 20") +
+                                            damping));
+  }
+  return scenes;
+}
 
 /// A run on all ranks against the same run on each rank by itself: the same to the last bit.
 inline void ExpectRanksDoNotMatter(const std::string &options) {

@@ -58,6 +58,12 @@ const Scene kScenes[] = {
     {"36 wedges, jitter, bbar",
      "-mesh box -mesh_box_cells 3,3,2 -mesh_box_size 3,3,2 -mesh_box_shape wedge -mesh_box_jitter 0.2", 0, 0.25, 0.6, 0,
      1, false, "bbar"},
+    {"48 tetrahedra, jitter, bbar",
+     "-mesh box -mesh_box_cells 2,2,2 -mesh_box_size 2,2,2 -mesh_box_shape tet -mesh_box_jitter 0.2", 0, 0.25, 0.4, 0,
+     1, false, "bbar"},
+    {"48 tetrahedra, jitter, bbar, nu = .45, contrast 100",
+     "-mesh box -mesh_box_cells 2,2,2 -mesh_box_size 2,2,2 -mesh_box_shape tet -mesh_box_jitter 0.2", 0, 0.45, 0.2, 0,
+     0.01, false, "bbar"},
 };
 
 TEST(StepBound, IsBelowTheExactStepAndNotFarBelow) {

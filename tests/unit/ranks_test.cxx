@@ -24,6 +24,10 @@ TEST(Ranks, DoNotMatterWhenBlocksFail) {
 
 TEST(Ranks, DoNotMatterWhenJoined) { ExpectRanksDoNotMatter(std::string(kBrick) + " -ts_max_steps 500 -device cpu"); }
 
+TEST(Ranks, DoNotMatterInAnyElementForm) {
+  for (const std::string &scene : FormScenes()) ExpectRanksDoNotMatter(scene + " -ts_max_steps 500 -device cpu");
+}
+
 TEST(Ranks, DoNotMatterWithOneCellEach) {
   ExpectRanksDoNotMatter(
       std::string("-mesh box -mesh_box_cells 3,1,1 -mesh_box_size 3,1,1 -gravity 0,0,-9.81 -ts_max_steps 100 "

@@ -5,6 +5,7 @@
 #include "mesh_make.hpp"
 
 #include <functional>
+#include <numeric>
 #include <random>
 
 namespace cdem {
@@ -172,6 +173,31 @@ inline std::vector<double> DenseStiffness(const Tables &tables) {
     std::copy(f.begin(), f.end(), k.begin() + static_cast<std::ptrdiff_t>(n * j));
   }
   return k;
+}
+
+/// Adds stiffness against the six rigid motions to a stiffness matrix, and nothing to any other motion.
+inline void HoldRigidMotions(const Tables &tables, std::vector<double> &k) {
+  const std::size_t n = tables.x.size();
+  const double stiff = k[0];
+  std::vector<std::vector<double>> rigid;
+  for (int r = 0; r < 6; ++r) {
+    std::vector<double> m(n, 0.0);
+    for (std::size_t i = 0; i < n; i += 3) {
+      if (r < 3) m[i + r] = 1;
+      const double axis[3] = {r == 3 ? 1.0 : 0, r == 4 ? 1.0 : 0, r == 5 ? 1.0 : 0};
+      if (r >= 3) Cross(axis, &tables.x[i], &m[i]);
+    }
+    for (const auto &other : rigid) {
+      const double share = std::inner_product(m.begin(), m.end(), other.begin(), 0.0);
+      for (std::size_t i = 0; i < n; ++i) m[i] -= share * other[i];
+    }
+    const double size = std::sqrt(std::inner_product(m.begin(), m.end(), m.begin(), 0.0));
+    for (double &value : m) value /= size;
+    rigid.push_back(m);
+  }
+  for (const auto &m : rigid)
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) k[n * i + j] += stiff * m[i] * m[j];
 }
 
 /// Cholesky factor L of a symmetric matrix [n][n], in place below the diagonal; false when it is not positive definite.
