@@ -59,6 +59,7 @@ PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells) {
     PetscCall(watch_.Upload(r.watch));
   }
   PetscCall(BuildSlotLists());
+  PetscCall(CreateAverages());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -105,7 +106,9 @@ std::size_t DeviceTables::Bytes() const {
   auto add = [&](const auto &...array) { ((bytes += array.bytes()), ...); };
   add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_,
       load_start_, load_table_, watch_, kind_, value_, load_, partial_, undamped_);
-  for (const Elements &e : elements_) add(e.node, e.material, e.counted, e.state, e.value, e.broken_time);
+  add(averages_.start, averages_.entry, averages_.inverse_volume, averages_.dilatation, averages_.pressure,
+      averages_.of_dilatation, averages_.of_pressure);
+  for (const Elements &e : elements_) add(e.node, e.material, e.layer, e.counted, e.state, e.value, e.broken_time);
   for (const Springs &s : springs_) add(s.a, s.b, s.joint, s.normal, s.area, s.kn, s.ks, s.history, s.state, s.counted);
   return bytes;
 }
@@ -132,6 +135,15 @@ NodeView DeviceTables::Nodes(double *u, double *v, const double *schedule, doubl
 }
 
 ElementView DeviceTables::View(const Elements &e, const double *u, const double *v, double beta, bool early) const {
+  const int rates = beta != 0 ? 2 : 1;
+  AverageView average;
+  if (e.host->averages)
+    average = {e.layer.get(),
+               t_->layers,
+               rates,
+               averages_.dilatation.get(),
+               averages_.of_dilatation.get() + rates * e.average_start,
+               averages_.of_pressure.get() + e.average_start};
   return {e.host->n,
           e.host->n_pad,
           e.node.get(),
@@ -146,7 +158,8 @@ ElementView DeviceTables::View(const Elements &e, const double *u, const double 
           e.counted.get(),
           e.state.get(),
           e.value.get(),
-          e.broken_time.get()};
+          e.broken_time.get(),
+          average};
 }
 
 SpringView DeviceTables::View(const Springs &s, const double *u, const double *v, double beta, bool early) const {

@@ -1,20 +1,14 @@
 // The tables on the device, and the launches of one step over them.
 #pragma once
 #include "cuda/device_array.cuh"
+#include "cuda/dilatation.cuh"
 #include "cuda/element_kernels.cuh"
+#include "cuda/launch.cuh"
 #include "cuda/node_kernels.cuh"
 #include "cuda/spring_kernels.cuh"
 #include "forces/backend.hpp"
 
 namespace cdem {
-
-/// How the kernels of a step are launched.
-struct LaunchArgs {
-  int block = 32;        ///< threads of the element kernels
-  bool overlap = false;  ///< a kernel may begin while the one before it ends
-  bool timed = false;    ///< every phase in its log event, waited for
-  cudaStream_t stream = nullptr;
-};
 
 /// Device copies of Tables, and the state of the springs.
 class DeviceTables {
@@ -33,7 +27,8 @@ class DeviceTables {
  private:
   struct Elements {
     const ElementTable *host;
-    DeviceArray<int> node, material;
+    DeviceArray<int> node, material, layer;
+    std::size_t average_start = 0;  ///< first slot among the integrals of all tables that average
     DeviceArray<std::uint8_t> counted, state;
     DeviceArray<double> value, broken_time;
   };
@@ -44,6 +39,11 @@ class DeviceTables {
     DeviceArray<std::uint8_t> state, counted;
   };
   PetscErrorCode BuildSlotLists();
+  PetscErrorCode CreateAverages();
+  PetscErrorCode LaunchMeans(int rates, const double *integral, double *mean, const LaunchArgs &launch);
+  /// Around the element kernels, in scenes whose elements average: dilatations before them, pressures after them.
+  PetscErrorCode LaunchDilatation(const double *u, const double *v, double beta, const LaunchArgs &launch);
+  PetscErrorCode LaunchPressure(const LaunchArgs &launch);
   PetscErrorCode LaunchElements(const NodeView &nodes, BatchState *batch, const LaunchArgs &launch);
   PetscErrorCode LaunchSprings(const NodeView &nodes, const LaunchArgs &launch);
   ElementView View(const Elements &e, const double *u, const double *v, double beta, bool early = false) const;
@@ -55,6 +55,7 @@ class DeviceTables {
   const Tables *t_ = nullptr;
   std::vector<Elements> elements_;
   std::vector<Springs> springs_;
+  DeviceAverages averages_;
   DeviceArray<double> x_, mass_, inverse_mass_, block_param_, joint_param_, slots_;
   DeviceArray<int> list_start_, list_entry_;
   DeviceArray<int> record_, table_, load_start_, load_table_, watch_;
@@ -62,7 +63,5 @@ class DeviceTables {
   DeviceArray<double> value_, load_;
   DeviceArray<double> partial_, undamped_;  // only once something is observed
 };
-
-inline int Blocks(int n, int block) { return (n + block - 1) / block; }
 
 }  // namespace cdem

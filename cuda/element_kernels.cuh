@@ -1,6 +1,6 @@
 // The loop over elements on the GPU: one thread an element, which writes its forces to slots of three doubles.
 #pragma once
-#include "cuda/kernel_common.cuh"
+#include "cuda/dilatation.cuh"
 #include "forces/element_body.hpp"
 #include "forces/node_step.hpp"
 
@@ -18,6 +18,7 @@ struct ElementView {
   const std::uint8_t *counted;  ///< for observations
   std::uint8_t *state;          ///< of laws with history: bits of ElementState
   double *value, *broken_time;  ///< [point][number][n_pad]; s, NaN while intact
+  AverageView average;          ///< of forms that average
 };
 
 template <class Form, class Law, bool kBeta, bool kObserve>
@@ -44,6 +45,15 @@ __device__ __forceinline__ void ElementThread(const ElementView &t, int e, const
       if (kBeta) rate[a][k] = t.beta * t.v[node + k];
     }
   }
+  if constexpr (Form::kAverages) {
+    double of_node[4];
+    NodeMeans(t.average, t.node, t.n_pad, e, t.average.mean, 1 + kBeta, 0, of_node);
+    Form::Spread(x, of_node, w);
+    if (kBeta) {
+      NodeMeans(t.average, t.node, t.n_pad, e, t.average.mean, 1 + kBeta, 1, of_node);
+      Form::Spread(x, of_node, rate);
+    }
+  }
   ElementHistory<double> history;
   std::uint8_t before = 0;
   if constexpr (Law::kState > 0) {
@@ -56,6 +66,7 @@ __device__ __forceinline__ void ElementThread(const ElementView &t, int e, const
                (before & kBrokenShear) != 0};
   }
   ElementStep<Form, Law, kBeta, kObserve, double>(x, w, rate, param, &history, force, sums);
+  if constexpr (Form::kAverages) t.average.pressure[e] = Form::Pressure(x, force);
   if constexpr (Law::kState > 0) {
     *broken = Failed<Law>(history);
     const std::uint8_t after = (history.touched || history.changed ? kTouched : 0) |

@@ -4,24 +4,6 @@
 
 namespace cdem {
 
-/// Launches a kernel; with overlap it may begin while the one before it in the stream ends (WaitForPrevious).
-template <class... Params, class... Args>
-static PetscErrorCode Launch(void (*kernel)(Params...), int blocks, int block, const LaunchArgs &launch,
-                             const Args &...args) {
-  PetscFunctionBeginUser;
-  cudaLaunchAttribute early;
-  early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
-  early.val.programmaticStreamSerializationAllowed = 1;
-  cudaLaunchConfig_t config = {};
-  config.gridDim = dim3(blocks);
-  config.blockDim = dim3(block);
-  config.stream = launch.stream;
-  config.attrs = &early;
-  config.numAttrs = launch.overlap ? 1 : 0;
-  CdemCuda(cudaLaunchKernelEx(&config, kernel, static_cast<Params>(args)...));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /// Runs a phase; timed: inside its log event, until the GPU has done it.
 template <class Phase>
 static PetscErrorCode Run(PetscLogEvent event, const LaunchArgs &launch, Phase &&phase) {
@@ -38,6 +20,7 @@ static PetscErrorCode Run(PetscLogEvent event, const LaunchArgs &launch, Phase &
 PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, BatchState *batch, const LaunchArgs &launch) {
   PetscFunctionBeginUser;
   const double beta = t_->beta;
+  PetscCall(LaunchDilatation(nodes.u, nodes.v, beta, launch));
   for (const Elements &e : elements_) {
     const bool first = &e == &elements_[0];  // says which step it is
     PetscErrorCode ierr = PETSC_SUCCESS;
@@ -50,6 +33,7 @@ PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, BatchState *b
     });
     PetscCall(ierr);
   }
+  PetscCall(LaunchPressure(launch));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -31,6 +31,9 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
   }
   double element[kElementSums] = {}, spring[kSpringSums] = {}, node[kNodeSums] = {};
   const int node_blocks = Blocks(t_->n_owned, kBlock);
+  LaunchArgs launch;
+  launch.stream = stream;
+  PetscCall(LaunchDilatation(nodes.u, nodes.v, 0, launch));
   for (const Elements &e : elements_) {
     const int blocks = Blocks(e.host->n, kBlock);
     VisitBlock(e.host->shape, e.host->form, e.host->law, [&](auto form, auto law) {
@@ -40,6 +43,7 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
     CdemCuda(cudaStreamSynchronize(stream));
     PetscCall(AddPartial(blocks, kElementSums, element, 0));
   }
+  PetscCall(LaunchPressure(launch));
   for (const Springs &s : springs_) {
     const int blocks = Blocks(s.host->n, kBlock);
     JointLaws::Visit(s.host->law, [&](auto law) {
@@ -49,6 +53,7 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
     CdemCuda(cudaStreamSynchronize(stream));
     PetscCall(AddPartial(blocks, kSpringSums, spring, 0));
   }
+  if (t_->beta != 0) PetscCall(LaunchDilatation(nodes.u, nodes.v, t_->beta, launch));
   if (t_->beta != 0 && t_->n_owned > 0) {
     // the kick of the coming step includes the damping forces: a second evaluation, its other sums dropped
     SumKernel<<<node_blocks, kBlock, 0, stream>>>(t_->n_owned, Lists(), undamped_.get());
@@ -63,6 +68,7 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
             <<<Blocks(s.host->n, kBlock), kBlock, 0, stream>>>(View(s, nodes.u, nodes.v, t_->beta), partial_.get());
       });
   }
+  if (t_->beta != 0) PetscCall(LaunchPressure(launch));
   if (t_->n_owned > 0) {
     const double *f = t_->beta != 0 ? undamped_.get() : nullptr;
     if (t_->records.n > 0)

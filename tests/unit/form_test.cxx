@@ -133,6 +133,7 @@ TEST(Forms, BendingOfACube) {
   EXPECT_NEAR(BendingEnergy<HexOnePoint>(h, a, 0), beam, 1e-13 * beam);
   EXPECT_NEAR(BendingEnergy<HexFull>(h, a, 0), 1.5 * beam, 1e-13 * beam);
   EXPECT_NEAR(BendingEnergy<HexBbar>(h, a, 0), 7.0 / 6 * beam, 1e-13 * beam);
+  EXPECT_NEAR(BendingEnergy<HexSpring>(h, a, 0), 4.5 * beam, 1e-13 * beam);
 }
 
 /// All points see one dilatation, and it is the pressure's partner in work: the mean of div u.

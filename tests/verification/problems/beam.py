@@ -52,19 +52,24 @@ def history_at(name, x):
     return {f"history_{name}_at": (x, 0, DEPTH / 2), f"history_{name}_of": "displacement_z"}
 
 
+def tip_deflection(lab, n, block=()):
+    """Results of the beam at rest under its tip load, n cells a depth, and the deflection; block: further options."""
+    strips = [f"tip{i}" for i in range(n)]
+    options = {**beam(lab, n), "boundaries": ["wall"] + strips, "histories": "tip", **history_at("tip", LENGTH),
+               "damping_alpha": 2 * first_frequency(), "ts_max_time": 17 / first_frequency(),
+               "history_interval": 100, **dict(block)}
+    edge = np.linspace(-0.5, 0.5, n + 1)
+    resultant = LOAD * (1.5 * edge - 2 * edge**3)  # of the parabola below each edge
+    for name, share in zip(strips, np.diff(resultant)):
+        options[f"boundary_{name}_traction"] = (0.0, 0.0, -share * n / DEPTH**2)
+    results = lab.run(options)
+    return results, -results.histories()["tip"][-1]
+
+
 @problem("Cantilever, tip deflection")
 def cantilever_tip(lab):
-    sizes, errors, exact = (2, 4, 8), [], tip_of_beam()
-    for n in sizes:
-        strips = [f"tip{i}" for i in range(n)]
-        options = {**beam(lab, n), "boundaries": ["wall"] + strips, "histories": "tip", **history_at("tip", LENGTH),
-                   "damping_alpha": 2 * first_frequency(), "ts_max_time": 17 / first_frequency(),
-                   "history_interval": 100}
-        edge = np.linspace(-0.5, 0.5, n + 1)
-        resultant = LOAD * (1.5 * edge - 2 * edge**3)  # of the parabola below each edge
-        for name, share in zip(strips, np.diff(resultant)):
-            options[f"boundary_{name}_traction"] = (0.0, 0.0, -share * n / DEPTH**2)
-        errors.append(-lab.run(options).histories()["tip"][-1] - exact)
+    sizes, exact = (2, 4, 8), tip_of_beam()
+    errors = [tip_deflection(lab, n)[1] - exact for n in sizes]
     finest = exact + errors[-1]
     limit = finest + (errors[-1] - errors[-2]) / 3
     mesh = f"{10 * sizes[-1]}x1x{sizes[-1]} hexahedra"
@@ -74,6 +79,24 @@ def cantilever_tip(lab):
                   "2, 4, 8 cells a depth"),
             relative("cantilever, tip deflection extrapolated to h = 0, m", formula, exact, limit, 1e-3,
                      "4 and 8 cells a depth")]
+
+
+STRENGTH = 1e20  # Pa: nothing breaks
+FORMS = {"full": {}, "bbar": {"block_element": "bbar"}, "onepoint": {"block_element": "onepoint"},
+         "spring": {"block_law": "spring", "block_tension": STRENGTH, "block_cohesion": STRENGTH, "block_friction": 0.0}}
+
+
+@problem("Cantilever, tip deflection by the other element forms")
+def cantilever_forms(lab):
+    exact, rows = tip_of_beam(), []
+    formula = "P L^3/(3 E I) + P L/(kappa G A)"
+    # springs bend stiffly (docs/benchmarks/forms.md): two meshes do not tell their limit as closely
+    for form, bar, limit_bar in (("bbar", 1e-2, 1e-3), ("onepoint", 1e-2, 1e-3), ("spring", 6e-2, 1.2e-2)):
+        found = [tip_deflection(lab, n, FORMS[form])[1] for n in (4, 8)]
+        rows += [relative(f"cantilever, {form}: tip deflection, m", formula, exact, found[1], bar, "80x1x8 hexahedra"),
+                 relative(f"cantilever, {form}: tip deflection extrapolated to h = 0, m", formula, exact,
+                          found[1] + (found[1] - found[0]) / 3, limit_bar, "4 and 8 cells a depth")]
+    return rows
 
 
 def measured_frequency(time, signal, guess):
