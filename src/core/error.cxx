@@ -40,4 +40,20 @@ void ExitOnError() {
   std::_Exit(1);  // the state of MPI and the device is unknown here: destructors must not run
 }
 
+PetscErrorCode CheckFailure(MPI_Comm comm, std::string failure) {
+  PetscFunctionBeginUser;
+  int size, rank, first;
+  PetscCallMPI(MPI_Comm_size(comm, &size));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  const int mine = failure.empty() ? size : rank;
+  PetscCallMPI(MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, comm));
+  if (first == size) PetscFunctionReturn(PETSC_SUCCESS);
+  int length = static_cast<int>(failure.size());
+  PetscCallMPI(MPI_Bcast(&length, 1, MPI_INT, first, comm));
+  failure.resize(static_cast<std::size_t>(length));
+  PetscCallMPI(MPI_Bcast(&failure[0], length, MPI_CHAR, first, comm));
+  CdemCheck(false, comm, "%s", failure.c_str());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 }  // namespace cdem

@@ -2,6 +2,8 @@
 #pragma once
 #include "core/petsc.hpp"
 
+#include <string>
+
 namespace cdem {
 
 /// Installs the error handler: a CdemCheck failure prints "cdem: error: ..." once; anything else keeps PETSc's traceback.
@@ -10,6 +12,9 @@ PetscErrorCode InstallErrorHandler();
 
 /// Ends the program after a failed call: exit code 1, all ranks of PETSC_COMM_WORLD with it. Does not return.
 [[noreturn]] void ExitOnError();
+
+/// Raises the failure (not "") of the lowest rank that has one, with the same text on every rank. Collective.
+PetscErrorCode CheckFailure(MPI_Comm comm, std::string failure);
 
 }  // namespace cdem
 

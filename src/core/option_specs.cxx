@@ -42,6 +42,8 @@ static std::vector<OptionSpec> &Registry() {
       {"interface_<name>_kn", T::kReal, "Pa/m", "by stiffness_factor", "normal stiffness per area", ""},
       {"interface_<name>_ks", T::kReal, "Pa/m", "by stiffness_factor", "shear stiffness per area", ""},
       {"interface_<name>_stiffness_factor", T::kReal, "", "20", "without `kn` (`ks`): this times the P-wave (shear) modulus of the softer side over the distance of the two cell centres", ""},
+      {"interface_<name>_kn_scatter", T::kText, "", "", "how kn varies from face to face about its value, the mean: `weibull:m`, `normal:s`, `uniform:d` (over the mean), cut at a thousandth", ""},
+      {"interface_<name>_ks_scatter", T::kText, "", "", "how ks varies likewise", ""},
       {"interface_<name>_tension", T::kReal, "Pa", "required by brittle, softening", "tensile strength; cut to cohesion / tan(friction)", ""},
       {"interface_<name>_cohesion", T::kReal, "Pa", "required by brittle, softening", "cohesion", ""},
       {"interface_<name>_friction", T::kReal, "degrees", "required by brittle, softening", "angle of friction", ""},

@@ -1,6 +1,7 @@
 #include "forces/joint_check.hpp"
 
 #include "core/error.hpp"
+#include "forces/params.hpp"
 #include "physics/laws.hpp"
 
 #include <algorithm>
@@ -20,10 +21,24 @@ void Widen(const Mesh &mesh, const std::vector<Material> &materials, const Joint
            FaceRange *range) {
   const double young =
       std::min(materials[mesh.cell_region[face.cell[0]]].young(), materials[mesh.cell_region[face.cell[1]]].young());
+  double property[kMaxProperties];
+  FaceProperties(mesh, joint, face, property);
   JointLaws::Visit(joint.law, [&](auto law) {
     range->fineness =
-        std::min(range->fineness, decltype(law)::LargestCell(joint.property, young) / CentreDistance(mesh, face));
+        std::min(range->fineness, decltype(law)::LargestCell(property, young) / CentreDistance(mesh, face));
   });
+}
+
+/// What is wrong with the scattered strength of a face whose springs have this stiffness per area, or "".
+std::string WrongAt(const Mesh &mesh, const Joint &joint, const Face &face, double kn, double ks) {
+  double property[kMaxProperties];
+  FaceProperties(mesh, joint, face, property);
+  std::string wrong;
+  JointLaws::Visit(joint.law, [&](auto law) {
+    wrong = decltype(law)::Check(property);
+    if (wrong.empty()) wrong = decltype(law)::CheckFace(property, kn, ks);
+  });
+  return wrong;
 }
 
 }  // namespace
@@ -34,19 +49,27 @@ PetscErrorCode CheckJoints(const Mesh &mesh, const std::vector<std::string> &nam
   PetscFunctionBeginUser;
   static_assert(sizeof(FaceRange) == 3 * sizeof(double), "reduced as an array of doubles");
   std::vector<FaceRange> ranges(joints.size());
+  std::string failure;
   for (const SpringTable &t : tables.springs)
     for (int i = 0; i < t.n; ++i) {
-      FaceRange &range = ranges[t.joint[i]];
+      const int id = t.interface[i];
+      const Joint &joint = joints[id];
+      FaceRange &range = ranges[id];
       range.kn = std::min(range.kn, t.kn[i] / t.area[i]);
       range.ks = std::min(range.ks, t.ks[i] / t.area[i]);
-      if (i == 0 || t.face[i] != t.face[i - 1])
-        Widen(mesh, materials, joints[t.joint[i]], mesh.faces[t.face[i]], &range);
+      if (i > 0 && t.face[i] == t.face[i - 1]) continue;
+      Widen(mesh, materials, joint, mesh.faces[t.face[i]], &range);
+      if (!HasOwnParams(joint) || !failure.empty()) continue;
+      failure = WrongAt(mesh, joint, mesh.faces[t.face[i]], t.kn[i] / t.area[i], t.ks[i] / t.area[i]);
+      if (!failure.empty()) failure = "interface '" + names[id] + "', as its properties scatter: " + failure;
     }
+  PetscCall(CheckFailure(mesh.comm, failure));
   PetscCallMPI(
       MPI_Allreduce(MPI_IN_PLACE, ranges.data(), static_cast<int>(3 * ranges.size()), MPI_DOUBLE, MPI_MIN, mesh.comm));
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const FaceRange &range = ranges[i];
     std::string wrong;
+    if (HasOwnParams(joints[i])) continue;  // seen face by face
     JointLaws::Visit(joints[i].law,
                      [&](auto law) { wrong = decltype(law)::CheckFace(joints[i].property, range.kn, range.ks); });
     CdemCheck(wrong.empty(), mesh.comm, "interface '%s': %s", names[i].c_str(), wrong.c_str());

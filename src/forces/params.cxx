@@ -77,28 +77,62 @@ void AddOwnParams(const Mesh &mesh, const std::vector<Material> &materials, Elem
 
 PetscErrorCode CheckOwnParams(const Mesh &mesh, const std::vector<Material> &materials) {
   PetscFunctionBeginUser;
-  struct {
-    int found, rank;
-  } first = {1, 0};
-  char message[256] = "";
-  PetscCallMPI(MPI_Comm_rank(mesh.comm, &first.rank));
-  for (PetscInt c = 0; c < mesh.n_owned && first.found; ++c) {
+  std::string failure;
+  for (PetscInt c = 0; c < mesh.n_owned && failure.empty(); ++c) {
     const Material &m = materials[mesh.cell_region[c]];
     if (!m.scatter.any) continue;
-    double property[kMaxProperties] = {}, volume = Volume(mesh, c);
-    CellProperties(mesh, m, c, volume, property);
+    double property[kMaxProperties] = {};
+    CellProperties(mesh, m, c, Volume(mesh, c), property);
     std::string wrong;
     BlockLaws::Visit(m.law, [&](auto law) { wrong = decltype(law)::Check(property); });
     if (wrong.empty()) continue;
     const double *x = mesh.X(mesh.Corners(c)[0]);
-    std::snprintf(message, sizeof message, "region '%s': in the element at (%g, %g, %g), as its properties scatter: %s",
-                  mesh.regions[mesh.cell_region[c]].c_str(), x[0], x[1], x[2], wrong.c_str());
-    first.found = 0;
+    char place[80];
+    std::snprintf(place, sizeof place, "the element at (%g, %g, %g)", x[0], x[1], x[2]);
+    failure =
+        "region '" + mesh.regions[mesh.cell_region[c]] + "': as its properties scatter, in " + place + ": " + wrong;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_2INT, MPI_MINLOC, mesh.comm));
-  PetscCallMPI(MPI_Bcast(message, sizeof message, MPI_CHAR, first.rank, mesh.comm));
-  CdemCheck(first.found != 0, mesh.comm, "%s", message);
+  PetscCall(CheckFailure(mesh.comm, failure));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// The number of a face for random numbers: its first cell has the lower global number on every rank.
+static std::uint64_t FaceNumber(const Mesh &mesh, const Face &face) {
+  return static_cast<std::uint64_t>(mesh.cell_global[face.cell[0]]) * kMaxFaces + face.local[0];
+}
+
+bool HasOwnParams(const Joint &joint) { return joint.scatter.any; }
+
+void FaceProperties(const Mesh &mesh, const Joint &joint, const Face &face, double *property) {
+  std::copy_n(joint.property, kMaxProperties, property);
+  if (!joint.scatter.any) return;
+  JointLaws::Visit(joint.law, [&](auto law) {
+    const auto &list = decltype(law)::kProperties;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      property[i] = ScatteredValue(joint.scatter.of[i], list[i], joint.property[i], 1, joint.scatter.seed,
+                                   FaceNumber(mesh, face));
+    decltype(law)::Adjust(property);
+  });
+}
+
+void FaceParams(const Mesh &mesh, const Joint &joint, const Face &face, double *param) {
+  double property[kMaxProperties];
+  FaceProperties(mesh, joint, face, property);
+  std::fill_n(param, kMaxParams, 0.0);
+  DeriveJoint(joint.law, property, param);
+  JointLaws::Visit(joint.law, [&](auto law) {
+    using Law = decltype(law);
+    if constexpr (Law::kMayKeepTension) param[Law::kKeepTension] = joint.param[Law::kKeepTension];
+  });
+}
+
+void ScatterStiffness(const Mesh &mesh, const Joint &joint, const Face &face, double *kn, double *ks) {
+  static const Property list[2] = {{"kn", "Pa/m", 0, kPropertyInf, kPropertyOpen},
+                                   {"ks", "Pa/m", 0, kPropertyInf, kPropertyOpen}};
+  double *value[2] = {kn, ks};
+  for (int i = 0; i < 2; ++i)
+    *value[i] =
+        ScatteredValue(joint.stiffness_scatter[i], list[i], *value[i], 1, joint.scatter.seed, FaceNumber(mesh, face));
 }
 
 }  // namespace cdem

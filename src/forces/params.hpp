@@ -16,6 +16,12 @@ void StartBlockParams(const std::vector<Material> &materials, Tables *tables);
 /// Gives the elements of a table that want them rows of their own; neighbours with equal parameters share one.
 void AddOwnParams(const Mesh &mesh, const std::vector<Material> &materials, ElementTable *table, Tables *tables);
 
+/// Properties [kMaxProperties], parameters [kMaxParams] and stiffness of an interface at a face, as they scatter.
+bool HasOwnParams(const Joint &joint);
+void FaceProperties(const Mesh &mesh, const Joint &joint, const Face &face, double *property);
+void FaceParams(const Mesh &mesh, const Joint &joint, const Face &face, double *param);
+void ScatterStiffness(const Mesh &mesh, const Joint &joint, const Face &face, double *kn, double *ks);
+
 /// Elements whose properties, as they scatter, do not go together (collective).
 PetscErrorCode CheckOwnParams(const Mesh &mesh, const std::vector<Material> &materials);
 

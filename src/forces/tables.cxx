@@ -176,6 +176,14 @@ void FaceStiffness(const Mesh &mesh, const std::vector<Material> &materials, con
   if (*ks < 0) *ks = b_over_h * std::min(m0[1], m1[1]);
 }
 
+/// A row of parameters for a face whose properties scatter.
+int AddFaceRow(const Mesh &mesh, const Joint &joint, const Face &face, Tables *tables) {
+  double param[kMaxParams];
+  FaceParams(mesh, joint, face, param);
+  tables->joint_param.insert(tables->joint_param.end(), param, param + kMaxParams);
+  return static_cast<int>(tables->joint_param.size() / kMaxParams) - 1;
+}
+
 void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
                   const std::vector<Material> &materials, const std::vector<Joint> &joints, Tables *tables) {
   for (int law = 0; law < JointLaws::kCount; ++law) {
@@ -187,7 +195,9 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
       if (face_interface[f] < 0 || face.cell[1] < 0 || joints[face_interface[f]].law != law) continue;
       const ShapeInfo &info = Info(mesh.cell_shape[face.cell[0]]);
       const int size = info.face_size[face.local[0]];
+      const Joint &joint = joints[face_interface[f]];
       double x[4][3], area[4][3], kn = 0, ks = 0;
+      int row = face_interface[f];
       bool measured = false;
       for (int j = 0; j < size; ++j) {
         const PetscInt a = FaceNode(mesh, nodes, face, j, 0), b = FaceNode(mesh, nodes, face, j, 1);
@@ -197,7 +207,9 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
           for (int i = 0; i < size; ++i)
             std::copy_n(mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][i]]), 3, x[i]);
           FaceVectors(size, x, area);
-          FaceStiffness(mesh, materials, joints[face_interface[f]], face, &kn, &ks);
+          FaceStiffness(mesh, materials, joint, face, &kn, &ks);
+          ScatterStiffness(mesh, joint, face, &kn, &ks);
+          if (HasOwnParams(joint)) row = AddFaceRow(mesh, joint, face, tables);
           measured = true;
         }
         const double size_j = std::sqrt(Dot(area[j], area[j]));
@@ -206,7 +218,8 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
         t.area.push_back(size_j);
         t.kn.push_back(kn * size_j);
         t.ks.push_back(ks * size_j);
-        t.joint.push_back(face_interface[f]);
+        t.joint.push_back(row);
+        t.interface.push_back(face_interface[f]);
         t.face.push_back(static_cast<int>(f));
         t.counted.push_back(counted);
         for (int k = 0; k < 3; ++k) normal.push_back(area[j][k] / size_j);
@@ -228,7 +241,7 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
       t.n_state = decltype(l)::kState;
       t.state.assign(t.n_pad, 0);
       for (int i = 0; i < t.n; ++i)
-        if (joints[t.joint[i]].broken) t.state[i] = kTensionLost | kCohesionLost;
+        if (joints[t.interface[i]].broken) t.state[i] = kTensionLost | kCohesionLost;
     });
     t.force_start = tables->n_slots;
     tables->n_slots += t.n_pad;
@@ -260,13 +273,13 @@ PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vect
   PetscCall(CheckForms(mesh, materials));
   PetscCall(CheckOwnParams(mesh, materials));
   StartBlockParams(materials, tables);
+  for (const Joint &j : joints) tables->joint_param.insert(tables->joint_param.end(), j.param, j.param + kMaxParams);
   BuildElements(mesh, nodes, materials, tables);
   PetscCall(BuildAveraging(mesh, materials, tables));
   PetscCall(BuildMass(mesh, nodes, materials, tables));
   BuildSprings(mesh, nodes, face_interface, materials, joints, tables);
   CdemCheck(tables->n_slots < static_cast<std::size_t>(std::numeric_limits<int>::max()), PETSC_COMM_SELF,
             "a rank has %zu element corners and springs: more than it can count; use more ranks", tables->n_slots);
-  for (const Joint &j : joints) tables->joint_param.insert(tables->joint_param.end(), j.param, j.param + kMaxParams);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -45,6 +45,7 @@ struct SpringTable {
   std::vector<double> area;           ///< [n_pad] A_j [m^2]
   std::vector<double> kn, ks;         ///< [n_pad] K_n = k_n A_j, K_s [N/m]
   std::vector<int> joint;             ///< [n_pad] row of the parameter table
+  std::vector<int> interface;         ///< [n] number of the interface
   std::vector<int> face;              ///< [n] face of the mesh
   std::vector<std::uint8_t> counted;  ///< [n_pad] 1 where this rank reports the spring (it owns the face's first cell)
   std::vector<std::uint8_t> state;    ///< [n_pad] SpringState bits at the start; empty without history

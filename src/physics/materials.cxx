@@ -186,6 +186,13 @@ PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &name
     joint.law = JointLaws::Choose(joint.law, joint.property);
     JointLaws::Visit(joint.law, [&](auto law) { ierr = FinishJoint<decltype(law)>(options, name, &joint, remarks); });
     PetscCall(ierr);
+    JointLaws::Visit(joint.law, [&](auto law) {
+      ierr = ReadScatters(options, "interface", name, decltype(law)::kProperties, &joint.scatter);
+    });
+    PetscCall(ierr);
+    bool set;
+    PetscCall(ReadScatter(options, {"interface", name, "kn_scatter"}, &joint.stiffness_scatter[0], &set));
+    PetscCall(ReadScatter(options, {"interface", name, "ks_scatter"}, &joint.stiffness_scatter[1], &set));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

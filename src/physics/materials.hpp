@@ -31,6 +31,8 @@ struct Joint {
   bool broken = false;                   ///< from the start
   double property[kMaxProperties] = {};  ///< in the order of the law's kProperties
   double param[kMaxParams] = {};
+  ScatterSet scatter;            ///< of the properties
+  Scatter stiffness_scatter[2];  ///< of kn and ks
 };
 
 /// Parameters of a block law (an interface law) from its properties. [in] size: of the element [m].

@@ -103,7 +103,39 @@ TEST(Scatter, SizeEffectOfWeibull) {
   EXPECT_NE(plain[0][1], plain[1][1]);
 }
 
+TEST(Scatter, OfFacesIsThatOfTheirSprings) {
+  const std::string scene =
+      "-mesh box -mesh_box_cells 3,3,3 -mesh_box_size 3,3,3 -ts_max_steps 1 -interfaces j "
+      "-interface_j_on all -interface_j_law brittle -interface_j_tension 1e5 "
+      "-interface_j_cohesion 2e5 -interface_j_friction 30 -interface_j_cohesion_scatter uniform:0.5 "
+      "-interface_j_kn_scatter normal:0.1 -interface_j_tension_scatter weibull:3";
+  std::unique_ptr<Simulation> s = SetUpScene(scene + kRock);
+  ASSERT_NE(s, nullptr);
+  const SpringTable &t = s->tables().springs[0];
+  std::vector<double> cohesions;
+  for (int i = 0; i < t.n; ++i) {
+    const double *param = &s->tables().joint_param[static_cast<std::size_t>(kMaxParams) * t.joint[i]];
+    EXPECT_GE(param[JointBrittle::kCohesion], 1e5);
+    EXPECT_LE(param[JointBrittle::kCohesion], 3e5);
+    // a tension above the tip of the cone is cut face by face
+    EXPECT_LE(param[JointBrittle::kTension] * param[JointBrittle::kTanPhi],
+              param[JointBrittle::kCohesion] * (1 + 1e-12));
+    if (i > 0 && t.face[i] == t.face[i - 1]) {
+      EXPECT_EQ(t.joint[i], t.joint[i - 1]);
+      EXPECT_NEAR(t.kn[i] / t.area[i], t.kn[i - 1] / t.area[i - 1], 1e-6 * t.kn[i] / t.area[i]);
+    } else {
+      cohesions.push_back(param[JointBrittle::kCohesion]);
+    }
+  }
+  ASSERT_EQ(cohesions.size(), 54u);
+  std::sort(cohesions.begin(), cohesions.end());
+  EXPECT_GT(PValue(cohesions, [](double x) { return (x - 1e5) / 2e5; }), 0.01);
+}
+
 TEST(ScatterRanks, DoNotMatter) {
+  ExpectRanksDoNotMatter(
+      BreakingScene("hex") +
+      " -ts_max_steps 600 -interface_j_cohesion_scatter weibull:3 -interface_j_ks_scatter uniform:0.4");
   ExpectRanksDoNotMatter(std::string(kBrick) +
                          " -block_young_scatter weibull:4 -ts_max_steps 60 -interfaces j -interface_j_on all");
 }
