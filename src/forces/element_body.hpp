@@ -121,7 +121,7 @@ CDEM_HD void ElementForce(const T x[][3], const T u[][3], const T *param, T f[][
 }
 
 /// Internal forces f [N] of one element by any law. [in] x: corners [m]; u: displacements [m]; beta_rate: beta v [m], used
-/// with kBeta only. Laws that are linear act on u + beta v; outside the others stands the viscous stress D : (beta
+/// with kBeta only, where laws that are not linear take NULL for none. Laws that are linear act on u + beta v; outside the others stands the viscous stress D : (beta
 /// strain rate), except in broken elements. [in,out] history: of laws that have one; committed unless kObserve.
 template <class Form, class Law, bool kBeta, bool kObserve, class T>
 CDEM_HD void ElementStep(const T x[][3], T u[][3], const T beta_rate[][3], const T *param, ElementHistory<T> *history,
@@ -131,9 +131,7 @@ CDEM_HD void ElementStep(const T x[][3], T u[][3], const T beta_rate[][3], const
     if (kBeta)
       CDEM_UNROLL for (int a = 0; a < corners; ++a) CDEM_UNROLL for (int k = 0; k < 3; ++k) u[a][k] += beta_rate[a][k];
     ElementForce<Form, Law, kObserve>(x, u, param, f, sums);
-    return;
-  }
-  if constexpr (Law::kJudgesMean) {
+  } else if constexpr (Law::kJudgesMean) {
     // intact elements are elastic; their mean stress decides, and what is broken is computed again by its law
     ElementSums<T> elastic;
     ElementForce<Form, Elastic, true>(x, u, param, f, &elastic);
@@ -162,7 +160,8 @@ CDEM_HD void ElementStep(const T x[][3], T u[][3], const T beta_rate[][3], const
     if (kObserve) *sums = ElementSums<T>{};
     Form::Forces(x, u, PointOf<Law, kObserve, T>{param, sums, history}, f);
   }
-  if (kBeta) {
+  if constexpr (kBeta && !Law::kLinear) {
+    if (!beta_rate) return;
     T g[corners][3];
     ElementForce<Form, Elastic, false, T>(x, beta_rate, param, g, nullptr);
     const MaskOf<T> failed = Failed<Law>(*history);

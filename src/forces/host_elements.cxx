@@ -1,170 +1,50 @@
-#include "forces/dilatation.hpp"
-#include "forces/host_gather.hpp"
-#include "forces/host_passes.hpp"
+#include "forces/host_element_loop.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace cdem {
 
-namespace {
-
-/// What a pass over the elements is given.
-struct ElementPass {
-  const Tables &tables;
-  const double *u, *v;
-  double beta, time;  ///< s; at the end of the step
-  double *f;
-  int n_owned_cells;
-  ElementResults *results;  ///< of observing passes
-  Averages *averages;       ///< of forms that average
-};
-
-/// Takes the dilatations of u and beta v from the nodes.
-template <bool kBeta>
-void SpreadDilatation(const ElementPass &pass, const ElementTable &t, int e, const Lanes x[4][3], Lanes u[4][3],
-                      Lanes rate[4][3]) {
-  Lanes of_node[2][4];
-  for (int a = 0; a < 4; ++a)
-    for (int l = 0; l < kLanes; ++l)
-      for (int r = 0; r <= kBeta; ++r)
-        of_node[r][a][l] = pass.averages->dilatation[(1 + kBeta) * t.Layered(pass.tables.layers, a, e + l) + r];
-  TetBbar::Spread(x, of_node[0], u);
-  if (kBeta) TetBbar::Spread(x, of_node[1], rate);
-}
-
-/// Keeps corner forces until their pressure has been averaged, and adds the pressure to the nodes.
-void KeepForces(const ElementPass &pass, const ElementTable &t, int e, const Lanes x[4][3], const Lanes f[4][3]) {
-  std::vector<double> &force = pass.averages->force[&t - pass.tables.elements.data()];
-  for (int a = 0; a < 4; ++a)
-    for (int k = 0; k < 3; ++k) StoreAs(&force[static_cast<std::size_t>(3 * a + k) * t.n_pad + e], f[a][k]);
-  const Lanes pressure = TetBbar::Pressure(x, f);
-  for (int l = 0; l < std::min(kLanes, t.n - e); ++l)
-    for (int a = 0; a < 4; ++a) pass.averages->pressure[t.Layered(pass.tables.layers, a, e + l)] += pressure[l];
-}
-
-/// Lanes of history of the elements from e on.
-ElementHistory<Lanes> Recall(const ElementTable &t, ElementHistories *h, int e) {
-  ElementHistory<Lanes> history;
-  history.value = &h->value[e];
-  history.stride = t.n_pad;
-  history.changed = LaneMask{};
-  for (int l = 0; l < kLanes; ++l) {
-    history.touched[l] = h->state[e + l] & kTouched ? -1 : 0;
-    history.tension[l] = h->state[e + l] & kBrokenTension ? -1 : 0;
-    history.shear[l] = h->state[e + l] & kBrokenShear ? -1 : 0;
-  }
-  return history;
-}
-
-void Commit(const ElementHistory<Lanes> &history, double time, int e, ElementHistories *h) {
-  for (int l = 0; l < kLanes; ++l) {
-    const bool broken = history.tension[l] || history.shear[l];
-    if (broken && std::isnan(h->broken_time[e + l])) h->broken_time[e + l] = time;
-    h->state[e + l] =
-        static_cast<std::uint8_t>((history.touched[l] || history.changed[l] ? kTouched : 0) |
-                                  (history.tension[l] ? kBrokenTension : 0) | (history.shear[l] ? kBrokenShear : 0));
-  }
-}
-
-template <class Form, class Law, bool kBeta, bool kObserve>
-void ElementLoop(const ElementPass &pass, const ElementTable &t, ElementHistories *h) {
-  constexpr int corners = Form::kCorners;
-  const std::size_t stride = t.n_pad;
-  for (int e = 0; e < t.n; e += kLanes) {
-    Lanes x[corners][3], w[corners][3], rate[corners][3], force[corners][3], param[kMaxParams];
-    for (int a = 0; a < corners; ++a) {
-      const int *node = &t.node[a * stride + e];
-      Gather(pass.tables.x.data(), node, x[a]);
-      Gather(pass.u, node, w[a]);
-      if (kBeta) {
-        Gather(pass.v, node, rate[a]);
-        for (int k = 0; k < 3; ++k) rate[a][k] = pass.beta * rate[a][k];
-      }
-    }
-    if constexpr (Form::kAverages) SpreadDilatation<kBeta>(pass, t, e, x, w, rate);
-    LoadParams(pass.tables.block_param, &t.material[e], Law::kParams, param);
-    ElementSums<Lanes> sums;
-    ElementHistory<Lanes> history;
-    if constexpr (Law::kState > 0) history = Recall(t, h, e);
-    ElementStep<Form, Law, kBeta, kObserve>(x, w, rate, param, &history, force, &sums);
-    if constexpr (Law::kState > 0 && !kObserve)
-      if (Any(history.changed | history.tension | history.shear)) Commit(history, pass.time, e, h);
-
-    if constexpr (Form::kAverages) KeepForces(pass, t, e, x, force);
-    alignas(sizeof(Lanes)) double out[corners][3][kLanes];
-    for (int a = 0; a < corners; ++a)
-      for (int k = 0; k < 3; ++k) StoreAs(out[a][k], force[a][k]);
-    const int live = std::min(kLanes, t.n - e);
-    for (int l = 0; l < live; ++l) {
-      CDEM_UNROLL for (int a = 0; a < corners && !Form::kAverages; ++a) {
-        double *to = pass.f + 3 * static_cast<std::ptrdiff_t>(t.node[a * stride + e + l]);
-        to[0] += out[a][0][l];
-        to[1] += out[a][1][l];
-        to[2] += out[a][2][l];
-      }
-      if (!kObserve) continue;
-      const int cell = t.cell[e + l];
-      if (cell >= pass.n_owned_cells) continue;
-      ElementResults &results = *pass.results;
-      results.energy += sums.energy[l];
-      results.force_count += 3 * corners;
-      for (int a = 0; a < corners; ++a)
-        for (int k = 0; k < 3; ++k) results.force_sum += std::fabs(out[a][k][l]);
-      if (results.stress)
-        for (int i = 0; i < 6; ++i)
-          results.stress[6 * static_cast<std::ptrdiff_t>(cell) + i] = sums.stress[i][l] / sums.volume[l];
-      if constexpr (Law::kJudgesMean || Law::kAtCorners) results.broken += Failed<Law>(history)[l] != 0;
-    }
-  }
-}
-
-template <bool kBeta, bool kObserve>
-void ElementsOf(const ElementPass &pass, std::size_t g, std::vector<ElementHistories> &history) {
+static void OfTable(const ElementPass &pass, std::size_t g, std::vector<ElementHistories> &history) {
   const ElementTable &t = pass.tables.elements[g];
-  VisitBlock(t.shape, t.form, t.law, [&](auto form, auto law) {
-    ElementLoop<decltype(form), decltype(law), kBeta, kObserve>(pass, t, &history[g]);
-  });
+  switch (t.shape) {
+    case Shape::kTet:
+      TetElements(pass, t, &history[g]);
+      break;
+    case Shape::kWedge:
+      WedgeElements(pass, t, &history[g]);
+      break;
+    case Shape::kHex:
+      HexElements(pass, t, &history[g]);
+      break;
+  }
 }
 
-template <bool kBeta, bool kObserve>
-void Elements(ElementPass pass, std::vector<ElementHistories> &history) {
+static void Elements(ElementPass pass, std::vector<ElementHistories> &history) {
   static thread_local Averages averages;  // keeps its memory from step to step
   const Tables &tables = pass.tables;
   if (tables.layers > 0) {
     pass.averages = &averages;
-    PetscCallAbort(tables.comm, AverageDilatation(tables, pass.u, pass.v, kBeta ? pass.beta : 0, &averages));
+    PetscCallAbort(tables.comm, AverageDilatation(tables, pass.u, pass.v, pass.beta, &averages));
     for (std::size_t g = 0; g < tables.elements.size(); ++g)
-      if (tables.elements[g].averages) ElementsOf<kBeta, kObserve>(pass, g, history);
+      if (tables.elements[g].averages) OfTable(pass, g, history);
     PetscCallAbort(tables.comm, AveragePressure(tables, &averages));
   }
   for (std::size_t g = 0; g < tables.elements.size(); ++g)
     if (tables.elements[g].averages)
       AddAveraged(tables, g, averages, pass.f);
     else
-      ElementsOf<kBeta, kObserve>(pass, g, history);
+      OfTable(pass, g, history);
 }
-
-}  // namespace
 
 void HostElements(const Tables &tables, const double *u, const double *v, double beta, double time,
                   std::vector<ElementHistories> &history, double *f) {
-  const ElementPass pass{tables, u, v, beta, time, f, 0, nullptr, nullptr};
-  if (beta != 0)
-    Elements<true, false>(pass, history);
-  else
-    Elements<false, false>(pass, history);
+  Elements({tables, u, v, beta, time, f, 0, nullptr, nullptr}, history);
 }
 
 void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, const double *v, double beta,
                          const std::vector<ElementHistories> &history, double *f, ElementResults *results) {
   auto &unchanged = const_cast<std::vector<ElementHistories> &>(history);  // an observing pass only reads
-  const ElementPass pass{tables, u, v, beta, 0, f, n_owned_cells, results, nullptr};
-  if (beta != 0)
-    Elements<true, true>(pass, unchanged);
-  else
-    Elements<false, true>(pass, unchanged);
+  Elements({tables, u, v, beta, 0, f, n_owned_cells, results, nullptr}, unchanged);
 }
 
 std::vector<ElementHistories> StartElements(const Tables &tables) {

@@ -1,0 +1,9 @@
+#include "forces/host_element_loop.hpp"
+
+namespace cdem {
+
+void HexElements(const ElementPass &pass, const ElementTable &t, ElementHistories *h) {
+  RunElements<HexForms>(pass, t, h);
+}
+
+}  // namespace cdem

@@ -1,0 +1,9 @@
+#include "forces/host_element_loop.hpp"
+
+namespace cdem {
+
+void TetElements(const ElementPass &pass, const ElementTable &t, ElementHistories *h) {
+  RunElements<TetForms>(pass, t, h);
+}
+
+}  // namespace cdem
