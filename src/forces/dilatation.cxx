@@ -2,9 +2,11 @@
 
 #include "forces/host_gather.hpp"
 #include "mesh/geometry.hpp"
+#include "physics/block_elastic.hpp"
 #include "physics/element_tet_bbar.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace cdem {
 
@@ -53,13 +55,16 @@ PetscErrorCode BuildAveraging(const Mesh &mesh, const std::vector<Material> &mat
   for (int &l : layer) l = l ? tables->layers++ : -1;
   if (tables->layers == 0) PetscFunctionReturn(PETSC_SUCCESS);
 
+  tables->layer_bulk.assign(tables->layers, -std::numeric_limits<double>::infinity());
   tables->inverse_volume.assign(static_cast<std::size_t>(tables->layers) * tables->n_owned, 0.0);
   for (ElementTable &t : tables->elements) {
     if (!t.averages) continue;
     t.layer.resize(t.n_pad);
     for (int e = 0; e < t.n_pad; ++e) t.layer[e] = layer[t.region[e]];
     for (int e = 0; e < t.n; ++e) {
-      double x[kCorners][3];
+      const double *param = &tables->block_param[static_cast<std::size_t>(kMaxParams) * t.material[e]];
+      double x[kCorners][3], &bulk = tables->layer_bulk[t.layer[e]];
+      bulk = std::max(bulk, param[Elastic::kLambda] + 2.0 / 3 * param[Elastic::kMu]);
       for (int a = 0; a < kCorners; ++a) std::copy_n(&tables->x[3 * static_cast<std::size_t>(t.Node(a, e))], 3, x[a]);
       const double volume = TetBbar::Volume(x);
       for (int a = 0; a < kCorners; ++a)
@@ -68,6 +73,7 @@ PetscErrorCode BuildAveraging(const Mesh &mesh, const std::vector<Material> &mat
     }
   }
   for (double &value : tables->inverse_volume) value = value > 0 ? 1 / value : 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, tables->layer_bulk.data(), tables->layers, MPI_DOUBLE, MPI_MAX, mesh.comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -44,6 +44,7 @@ void MakeCanonical(const Tables &tables, const ElementTable &t, const std::vecto
   const double *param = &tables.block_param[static_cast<std::size_t>(kMaxParams) * t.material[e]];
   c->lambda = param[0];
   c->mu = param[1];
+  if (t.averages) c->lambda = tables.layer_bulk[t.layer[e]] - 2.0 / 3 * c->mu;
   c->density = materials[t.region[e]].density;
 }
 
@@ -107,8 +108,8 @@ double LanesBound(const Canonical *batch) {
   return largest * kRoundingMargin;
 }
 
-/// Forms that average their dilatation are bounded as if they did not: a region has one bulk modulus, averaging is a
-/// contraction in the norm that its volumes weigh, and so the energy only falls.
+/// Forms that average their dilatation are bounded as if they did not, with the largest bulk modulus of those that they
+/// average with: averaging is a contraction in the norm that volumes weigh, and so the energy only falls.
 template <class Form>
 double TableBound(const Tables &tables, const ElementTable &t, const std::vector<Material> &materials) {
   std::unordered_set<std::uint64_t> seen;

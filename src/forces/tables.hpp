@@ -82,6 +82,7 @@ struct Tables {
   std::vector<double> joint_param;     ///< [row][kMaxParams]
   int layers = 0;                      ///< regions whose elements average their dilatation; 0: no averaging anywhere
   std::vector<double> inverse_volume;  ///< [n_owned][layer] 1/m^3, of a node's elements of that layer; 0 without any
+  std::vector<double> layer_bulk;      ///< [layer] the largest bulk modulus of its elements on any rank [Pa]
   NodeRecords records;
   int n_watch = 0;                ///< slots of the history buffer on this rank
   int n_tables = 1;               ///< time tables; table 0 is the constant 1

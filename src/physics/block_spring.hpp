@@ -36,33 +36,42 @@ struct SpringBlock : BlockLawDefaults {
   /// length. [in,out] state: its broken faces. Returns whether another one broke.
   template <class T>
   static CDEM_HD MaskOf<T> Stress(const T *param, const T strain[6], const T area[3][3], T state[1], T stress[6]) {
-    T elastic[6];
-    Elastic::Stress(param, strain, elastic);
-    CDEM_UNROLL for (int i = 0; i < 6; ++i) stress[i] = elastic[i];
-    MaskOf<T> broken[3], fresh{};
-    T code = state[0];
+    Elastic::Stress(param, strain, stress);
+    const MaskOf<T> fails = (state[0] > T{}) | Breaks(param, stress, area[0]) | Breaks(param, stress, area[1]) |
+                            Breaks(param, stress, area[2]);
+    if (!Any(fails)) return fails;
+    return Fail(param, area, fails, state, stress);
+  }
+
+ private:
+  /// Corners of which something is broken, or breaks. [in,out] stress: elastic at first. Returns where something broke.
+  template <class T>
+  static CDEM_HD_CALL MaskOf<T> Fail(const T *param, const T area[3][3], MaskOf<T> fails, T state[1], T stress[6]) {
+    T released[6], code = state[0];
+    const T none{};
+    MaskOf<T> broken[3], fresh = code < none;
     CDEM_UNROLL for (int i = 2; i >= 0; --i) {
       const double bit = i == 2 ? 4 : i == 1 ? 2 : 1;
       broken[i] = code >= bit;
       code = broken[i] ? code - bit : code;
     }
-    if (Any(broken[0] | broken[1] | broken[2])) Release(param, area, broken, stress);
+    CDEM_UNROLL for (int i = 0; i < 6; ++i) released[i] = stress[i];
+    Release(param, area, broken, released);
     // what is broken has let go when the others are judged
     CDEM_UNROLL for (int i = 0; i < 3; ++i) {
-      const MaskOf<T> breaks = Breaks(param, stress, area[i]) & !broken[i];
+      const MaskOf<T> breaks = Breaks(param, released, area[i]) & !broken[i];
       fresh = fresh | breaks;
       broken[i] = broken[i] | breaks;
     }
     if (Any(fresh)) {
-      CDEM_UNROLL for (int i = 0; i < 6; ++i) stress[i] = elastic[i];
-      Release(param, area, broken, stress);
-      const T none{};
+      CDEM_UNROLL for (int i = 0; i < 6; ++i) released[i] = stress[i];
+      Release(param, area, broken, released);
       state[0] = (broken[0] ? none + 1.0 : none) + (broken[1] ? none + 2.0 : none) + (broken[2] ? none + 4.0 : none);
     }
+    CDEM_UNROLL for (int i = 0; i < 6; ++i) stress[i] = fails ? released[i] : stress[i];
     return fresh;
   }
 
- private:
   /// N >= sigma_t, or S >= c - N tan(phi), with N and S times the square of the area: no root, no division. A face that
   /// nothing pulls or shears is left as it is.
   template <class T>
