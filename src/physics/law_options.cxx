@@ -11,6 +11,7 @@
 namespace cdem {
 
 static std::string Text(double value) {
+  if (std::isinf(value)) return "no end";
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
   return text;

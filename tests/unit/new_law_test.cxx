@@ -91,7 +91,7 @@ TEST(NewLaw, IsFoundByItsName) {
 }
 
 TEST(NewLaw, OfOneNameIsChosenByItsProperties) {
-  const double weak[1] = {10}, strong[1] = {200};
+  const double weak[kMaxProperties] = {10}, strong[kMaxProperties] = {200};
   EXPECT_EQ(Joints::Choose(3, weak), 4);
   EXPECT_EQ(Joints::Choose(4, weak), 4);
   EXPECT_EQ(Joints::Choose(4, strong), 3);
