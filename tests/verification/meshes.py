@@ -1,4 +1,6 @@
-"""Structured meshes of hexahedra with named regions and surfaces, written by gmsh."""
+"""Structured meshes of hexahedra or tetrahedra with named regions and surfaces, written by gmsh."""
+import itertools
+
 import gmsh
 import numpy as np
 
@@ -7,15 +9,30 @@ SIDES = {"xmin": ((0, 4, 7, 3), 0, 0), "xmax": ((1, 2, 6, 5), 0, 1), "ymin": ((0
          "ymax": ((3, 7, 6, 2), 1, 1), "zmin": ((0, 3, 2, 1), 2, 0), "zmax": ((4, 5, 6, 7), 2, 1)}
 
 
+def kuhn():
+    """The six tetrahedra of a hexahedron round its diagonal 0-6; neighbours cut their common face alike."""
+    corner = {(0, 0, 0): 0, (1, 0, 0): 1, (1, 1, 0): 2, (0, 1, 0): 3, (0, 0, 1): 4, (1, 0, 1): 5, (1, 1, 1): 6, (0, 1, 1): 7}
+    tetrahedra = []
+    for order in itertools.permutations(range(3)):
+        at, path = [0, 0, 0], [0]
+        for axis in order:
+            at[axis] = 1
+            path.append(corner[tuple(at)])
+        odd = sum(a > b for a, b in itertools.combinations(order, 2)) % 2
+        tetrahedra.append([path[0], path[2], path[1], path[3]] if odd else path)
+    return tetrahedra
+
+
 def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda points: points, version=4.1,
-              binary=False):
-    """Writes the grid of the coordinate lists x, y, z as hexahedra.
+              binary=False, tetrahedra=False):
+    """Writes the grid of the coordinate lists x, y, z as hexahedra, or each of them as six tetrahedra.
 
     region(centre) names the region of a cell; side(name, centre) names the surface of an outer face (name: xmin ... zmax)
     or gives None; move(points) displaces the nodes [n, 3] in the end (rotation, distortion)."""
     nx, ny, nz = len(x), len(y), len(z)
     points = np.array([(a, b, c) for c in z for b in y for a in x], dtype=float)
     node = lambda i, j, k: 1 + i + nx * (j + ny * k)
+    parts = kuhn() if tetrahedra else [list(range(8))]
     cells, faces = {}, {}
     for k in range(nz - 1):
         for j in range(ny - 1):
@@ -23,14 +40,15 @@ def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda
                 corners = [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
                            node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)]
                 centre = (points[corners[0] - 1] + points[corners[6] - 1]) / 2
-                cells.setdefault(region(centre), []).append(corners)
+                cells.setdefault(region(centre), []).extend([corners[c] for c in part] for part in parts)
                 index, last = (i, j, k), (nx - 2, ny - 2, nz - 2)
                 for name, (local, axis, upper) in SIDES.items():
                     if index[axis] == (last[axis] if upper else 0):
                         face = [corners[c] for c in local]
                         label = side(name, points[np.array(face) - 1].mean(axis=0))
                         if label is not None:
-                            faces.setdefault(label, []).append(face)
+                            cut = [[corners[c] for c in part if c in local] for part in parts]
+                            faces.setdefault(label, []).extend([f for f in cut if len(f) == 3] if tetrahedra else [face])
     gmsh.initialize()
     try:
         gmsh.option.setNumber("General.Terminal", 0)
@@ -38,7 +56,7 @@ def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda
         gmsh.option.setNumber("Mesh.Binary", 1 if binary else 0)
         gmsh.model.add("grid")
         tag, element, first = 0, 1, True
-        for dim, kind, groups in ((3, 5, cells), (2, 3, faces)):
+        for dim, kind, groups in ((3, 4 if tetrahedra else 5, cells), (2, 2 if tetrahedra else 3, faces)):
             for label, items in groups.items():
                 tag += 1
                 gmsh.model.addDiscreteEntity(dim, tag)
