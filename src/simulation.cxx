@@ -97,6 +97,7 @@ PetscErrorCode Simulation::BuildModel() {
   }
   Phase("tables");
   PetscCall(PetscLogEventBegin(events.tables, nullptr, nullptr, nullptr, nullptr));
+  PetscCall(CheckForms(mesh_, materials_, &remarks_));
   PetscCall(BuildTables(mesh_, nodes_, face_interface_, materials_, joints_, &tables_));
   PetscCall(CheckJoints(mesh_, interface_names_, materials_, joints_, tables_, &remarks_));
   tables_.n_tables = static_cast<int>(time_tables_.size());
@@ -175,6 +176,8 @@ PetscErrorCode Simulation::CreateBackend() {
   if (device_ == "auto") cuda = CudaDeviceThere();
   CdemCheck(!cuda || CudaDeviceThere(), comm_,
             "-device cuda: this machine shows no usable NVIDIA GPU; use -device cpu");
+  CdemCheck(!cuda || !tables_.releases, comm_,
+            "-block_<region>_release_interfaces is computed on the CPU only so far: use -device cpu, or leave it out");
   if (cuda) {
     PetscCall(options_.Int("elements_per_block", &per_block));
     CdemCheck(per_block >= 32 && per_block <= 256 && per_block % 32 == 0, comm_,

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/options.hpp"
 #include "forces/backend.hpp"
+#include "forces/form_check.hpp"
 #include "forces/joint_check.hpp"
 #include "forces/step_bound.hpp"
 #include "forces/validity.hpp"

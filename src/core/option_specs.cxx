@@ -24,6 +24,7 @@ static std::vector<OptionSpec> &Registry() {
       {"block_<region>_poisson", T::kReal, "", "required", "Poisson's ratio, above -1 and below 0.5", ""},
       {"block_<region>_density", T::kReal, "kg/m^3", "required", "density", ""},
 
+      {"block_<region>_release_interfaces", T::kFlag, "", "false", "law breakage: an element that breaks breaks the interfaces on its faces too (on the CPU so far)", ""},
       {"block_<region>_scatter_volume", T::kReal, "m^3", "none", "volume V0 for which the Weibull means hold: an element of volume V has (V0/V)^(1/m) times them", ""},
 
       {"joints", T::kNames, "", "", "declares the joint sets; each needs an interface with `on joints:J`", ""},

@@ -1,5 +1,6 @@
 #include "forces/backend.hpp"
 #include "forces/observe.hpp"
+#include "forces/release.hpp"
 #include "core/events.hpp"
 
 #include <algorithm>
@@ -122,6 +123,7 @@ class HostBackend final : public Backend {
         HostElements(t_, u_.data(), v_.data(), t_.beta, time, history_.elements, f_.data());
         return PETSC_SUCCESS;
       }));
+      if (t_.releases) PetscCall(ReleaseSprings(t_, history_.elements, &released_, &history_.springs));
       if (!t_.springs.empty())
         PetscCall(Timed(events.springs, &springs_, [&] {
           HostSprings(t_, u_.data(), v_.data(), t_.beta, history_.springs, f_.data());
@@ -204,6 +206,7 @@ class HostBackend final : public Backend {
   int n_owned_cells_;
   std::vector<double> u_, v_, f_;
   Histories history_;
+  std::vector<std::uint8_t> released_;     // of cells, where breaking elements release their interfaces
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;
   double elements_ = 0, springs_ = 0, nodes_ = 0, halo_ = 0;  // wall [s]

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/lanes.hpp"
 #include "forces/dilatation.hpp"
+#include "forces/form_check.hpp"
 #include "forces/params.hpp"
 #include "mesh/geometry.hpp"
 #include "physics/elements.hpp"
@@ -50,53 +51,6 @@ std::vector<PetscInt> ActiveCells(const Mesh &mesh, const Nodes &nodes) {
     if (complete && (touches || c < mesh.n_owned)) cells.push_back(c);
   }
   return cells;
-}
-
-int FormNumber(Shape shape, const std::string &name) {
-  int form = -1;
-  VisitForms(shape, [&](auto forms) { form = decltype(forms)::Find(name); });
-  return form;
-}
-
-/// The forms that a region may ask for.
-template <class... Forms>
-std::string NamesOfForms(LawList<Forms...>) {
-  std::string all;
-  ((all += Forms::kAtCorners ? "" : std::string(all.empty() ? "" : ", ") + Forms::kName), ...);
-  return all;
-}
-
-/// Every region's elements have the form that its material asks for, and law and form fit (collective).
-PetscErrorCode CheckForms(const Mesh &mesh, const std::vector<Material> &materials) {
-  PetscFunctionBeginUser;
-  static const char *const names[kShapes] = {"tetrahedra", "wedges", "hexahedra"};
-  std::vector<int> has(kShapes * materials.size(), 0);
-  for (PetscInt c = 0; c < mesh.n_owned; ++c)
-    has[kShapes * mesh.cell_region[c] + static_cast<int>(mesh.cell_shape[c])] = 1;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, has.data(), static_cast<int>(has.size()), MPI_INT, MPI_MAX, mesh.comm));
-  for (std::size_t r = 0; r < materials.size(); ++r)
-    for (int s = 0; s < kShapes; ++s) {
-      if (!has[kShapes * r + s]) continue;
-      const Shape shape = static_cast<Shape>(s);
-      const Material &m = materials[r];
-      std::string forms, law;
-      bool at_corners = false, fits = false;
-      BlockLaws::Visit(m.law, [&](auto l) {
-        law = decltype(l)::kName;
-        at_corners = decltype(l)::kAtCorners;
-      });
-      VisitForms(shape, [&](auto list) { forms = NamesOfForms(list); });
-      const int form = FormNumber(shape, m.element);
-      CdemCheck(form >= 0 || !at_corners, mesh.comm,
-                "region '%s' has %s, for which there is no law %s: it is one of hexahedra", mesh.regions[r].c_str(),
-                names[s], law.c_str());
-      CdemCheck(form >= 0, mesh.comm, "region '%s' has %s, which know no element form '%s'; their forms are: %s",
-                mesh.regions[r].c_str(), names[s], m.element.c_str(), forms.c_str());
-      VisitBlock(shape, form, m.law, [&](auto, auto) { fits = true; });
-      CdemCheck(fits, mesh.comm, "region '%s': the law %s cannot be computed in %s of form '%s'",
-                mesh.regions[r].c_str(), law.c_str(), names[s], m.element.c_str());
-    }
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials, Tables *tables) {
@@ -220,6 +174,9 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
         t.ks.push_back(ks * size_j);
         t.joint.push_back(row);
         t.interface.push_back(face_interface[f]);
+        if (tables->releases)
+          for (PetscInt c : face.cell)
+            t.cell.push_back(materials[mesh.cell_region[c]].releases ? static_cast<int>(c) : -1);
         t.face.push_back(static_cast<int>(f));
         t.counted.push_back(counted);
         for (int k = 0; k < 3; ++k) normal.push_back(area[j][k] / size_j);
@@ -270,13 +227,15 @@ PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vect
   tables->halo = nodes.halo;
   tables->x.resize(3 * static_cast<std::size_t>(nodes.n_local));
   for (PetscInt i = 0; i < nodes.n_local; ++i) std::copy_n(mesh.X(nodes.vertex[i]), 3, &tables->x[3 * i]);
-  PetscCall(CheckForms(mesh, materials));
   PetscCall(CheckOwnParams(mesh, materials));
   StartBlockParams(materials, tables);
   for (const Joint &j : joints) tables->joint_param.insert(tables->joint_param.end(), j.param, j.param + kMaxParams);
   BuildElements(mesh, nodes, materials, tables);
   PetscCall(BuildAveraging(mesh, materials, tables));
   PetscCall(BuildMass(mesh, nodes, materials, tables));
+  for (const Material &m : materials) tables->releases = tables->releases || m.releases;
+  tables->n_cells = static_cast<int>(mesh.cell_global.size());
+  tables->cells = mesh.cell_sf;
   BuildSprings(mesh, nodes, face_interface, materials, joints, tables);
   CdemCheck(tables->n_slots < static_cast<std::size_t>(std::numeric_limits<int>::max()), PETSC_COMM_SELF,
             "a rank has %zu element corners and springs: more than it can count; use more ranks", tables->n_slots);

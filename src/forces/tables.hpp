@@ -49,6 +49,7 @@ struct SpringTable {
   std::vector<int> face;              ///< [n] face of the mesh
   std::vector<std::uint8_t> counted;  ///< [n_pad] 1 where this rank reports the spring (it owns the face's first cell)
   std::vector<std::uint8_t> state;    ///< [n_pad] SpringState bits at the start; empty without history
+  std::vector<int> cell;              ///< [n][2] local cells whose breaking breaks the spring, or -1; empty: none does
   std::size_t force_start = 0;        ///< first slot of this table among the corner forces
 };
 
@@ -73,6 +74,9 @@ struct Tables {
   MPI_Comm comm = MPI_COMM_NULL;
   int n_owned = 0, n_local = 0;      ///< nodes
   PetscSF halo = nullptr;            ///< borrowed from Nodes
+  bool releases = false;             ///< elements that break break the springs of their faces
+  int n_cells = 0;                   ///< local cells, those of the overlap too
+  PetscSF cells = nullptr;           ///< borrowed from Mesh: owned cells to those of the overlap; NULL on one rank
   std::vector<double> x;             ///< [n_local][3] m
   std::vector<double> mass;          ///< [n_owned] kg
   std::vector<double> inverse_mass;  ///< [n_owned] 1/kg

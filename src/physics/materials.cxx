@@ -138,6 +138,9 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
               "%s is %g; it must be above 0, and goes with a weibull scatter",
               Options::Spelled({"block", regions[r], "scatter_volume"}).c_str(), material.scatter.volume);
     PetscCall(ReadForm(options, regions[r], &material));
+    bool breaks = false;
+    BlockLaws::Visit(material.law, [&](auto law) { breaks = decltype(law)::kJudgesMean; });
+    if (breaks) PetscCall(options.Flag({"block", regions[r], "release_interfaces"}, &material.releases));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

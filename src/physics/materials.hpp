@@ -18,6 +18,7 @@ struct Material {
   double density = 0;                    ///< kg/m^3
   double property[kMaxProperties] = {};  ///< in the order of the law's kProperties
   double param[kMaxParams] = {};         ///< of an element of size 1 m
+  bool releases = false;                 ///< an element that breaks breaks the springs of its faces
   ScatterSet scatter;
   double lambda() const { return param[0]; }  ///< elastic part [Pa]
   double mu() const { return param[1]; }

@@ -199,6 +199,16 @@ def test_good_scene_is_accepted(tmp_path):
         assert (tmp_path / str(i) / "out" / "summary.json").exists()
 
 
+def test_plastic_tetrahedra_are_noted(tmp_path):
+    """Tetrahedra of form full lock in plastic flow: said where it is so, and only there."""
+    tets = {**MOHR, "mesh_box_shape": "tet"}
+    for i, (changes, locks) in enumerate(((tets, True), ({**tets, "block_element": "bbar"}, False),
+                                          ({"mesh_box_shape": "tet"}, False), (MOHR, False))):
+        done = harness.call(tmp_path / str(i), changed(changes))
+        assert done.returncode == 0, text_of(done)
+        assert ("lock in plastic flow" in text_of(done)) == locks, changes
+
+
 # Meshes
 
 CUBES = [(x, y, z) for z in (0, 1, 2) for y in (0, 1) for x in (0, 1)]
