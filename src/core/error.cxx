@@ -1,13 +1,16 @@
 #include "core/error.hpp"
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <thread>
 
 namespace cdem {
 
+static bool user_error = false;  // every rank stops at one; rank 0 says it
+
 static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
                                   PetscErrorType type, const char *message, void *ctx) {
-  static bool user_error = false;  // the calls on the way out report the same code: they stay silent
   PetscBool started = PETSC_FALSE;
   PetscInitialized(&started);
   if (type == PETSC_ERROR_INITIAL && (code == PETSC_ERR_USER_INPUT || !started)) {
@@ -21,7 +24,7 @@ static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function,
     }
     return code;
   }
-  if (user_error) return code;
+  if (user_error) return code;  // the calls on the way out report the same code: they stay silent
   return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, ctx);
 }
 
@@ -32,10 +35,15 @@ PetscErrorCode InstallErrorHandler() {
 }
 
 void ExitOnError() {
-  int size = 1, mpi = 0;
+  int size = 1, rank = 0, mpi = 0;
   MPI_Initialized(&mpi);
-  if (mpi) MPI_Comm_size(MPI_COMM_WORLD, &size);
+  if (mpi) {
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  }
   std::fflush(nullptr);
+  // The first abort ends all ranks, rank 0 too: it gets the time to say what is wrong.
+  if (user_error && rank > 0) std::this_thread::sleep_for(std::chrono::seconds(10));
   if (size > 1) MPI_Abort(MPI_COMM_WORLD, 1);
   std::_Exit(1);  // the state of MPI and the device is unknown here: destructors must not run
 }
