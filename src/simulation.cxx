@@ -111,7 +111,7 @@ PetscErrorCode Simulation::BuildModel() {
   for (const SpringTable &t : tables_.springs)
     counts[kShapes + 1] += std::count(t.counted.begin(), t.counted.end(), std::uint8_t{1});
   for (const ElementTable &t : tables_.elements)
-    if (t.judged)
+    if (t.breaks)
       counts[kShapes + 2] += std::count_if(t.cell.begin(), t.cell.end(), [&](int c) { return c < mesh_.n_owned; });
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, kShapes + 3, MPI_INT64_T, MPI_SUM, comm_));
   std::copy_n(counts, kShapes, n_cells_);

@@ -121,8 +121,9 @@ CDEM_HD void ElementForce(const T x[][3], const T u[][3], const T *param, T f[][
 }
 
 /// Internal forces f [N] of one element by any law. [in] x: corners [m]; u: displacements [m]; beta_rate: beta v [m], used
-/// with kBeta only, where laws that are not linear take NULL for none. Laws that are linear act on u + beta v; outside the others stands the viscous stress D : (beta
-/// strain rate), except in broken elements. [in,out] history: of laws that have one; committed unless kObserve.
+/// with kBeta only, where laws that are not linear take NULL for none. Laws that are linear act on u + beta v; outside the
+/// others stands the viscous stress D : (beta strain rate), except in broken elements. [in,out] history: of laws that have
+/// one; committed unless kObserve.
 template <class Form, class Law, bool kBeta, bool kObserve, class T>
 CDEM_HD void ElementStep(const T x[][3], T u[][3], const T beta_rate[][3], const T *param, ElementHistory<T> *history,
                          T f[][3], ElementSums<T> *sums) {

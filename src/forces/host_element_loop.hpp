@@ -118,7 +118,7 @@ void ElementLoop(const ElementPass &pass, const ElementTable &t, ElementHistorie
       if (results.stress)
         for (int i = 0; i < 6; ++i)
           results.stress[6 * static_cast<std::ptrdiff_t>(cell) + i] = sums.stress[i][l] / sums.volume[l];
-      if constexpr (Law::kJudgesMean || Law::kAtCorners) results.broken += Failed<Law>(history)[l] != 0;
+      if constexpr (kBreaks<Law>) results.broken += Failed<Law>(history)[l] != 0;
     }
   }
 }

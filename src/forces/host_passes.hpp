@@ -42,7 +42,8 @@ struct SpringResults {
   double broken = 0, count = 0;  ///< springs this rank counts
 };
 
-/// Adds internal forces of all elements to f [n_local][3], with beta != 0 those of damping too; histories are committed, and what breaks does so at the given time [s].
+/// Adds internal forces of all elements to f [n_local][3], with beta != 0 those of damping too; histories are committed,
+/// and what breaks does so at the given time [s].
 void HostElements(const Tables &tables, const double *u, const double *v, double beta, double time,
                   std::vector<ElementHistories> &history, double *f);
 /// The same without committing anything.

@@ -18,11 +18,9 @@ struct FaceRange {
 };
 
 void Widen(const Mesh &mesh, const std::vector<Material> &materials, const Joint &joint, const Face &face,
-           FaceRange *range) {
+           const double *property, FaceRange *range) {
   const double young =
       std::min(materials[mesh.cell_region[face.cell[0]]].young(), materials[mesh.cell_region[face.cell[1]]].young());
-  double property[kMaxProperties];
-  FaceProperties(mesh, joint, face, property);
   JointLaws::Visit(joint.law, [&](auto law) {
     range->fineness =
         std::min(range->fineness, decltype(law)::LargestCell(property, young) / CentreDistance(mesh, face));
@@ -30,9 +28,7 @@ void Widen(const Mesh &mesh, const std::vector<Material> &materials, const Joint
 }
 
 /// What is wrong with the scattered strength of a face whose springs have this stiffness per area, or "".
-std::string WrongAt(const Mesh &mesh, const Joint &joint, const Face &face, double kn, double ks) {
-  double property[kMaxProperties];
-  FaceProperties(mesh, joint, face, property);
+std::string WrongAt(const Joint &joint, const double *property, double kn, double ks) {
   std::string wrong;
   JointLaws::Visit(joint.law, [&](auto law) {
     wrong = decltype(law)::Check(property);
@@ -58,9 +54,11 @@ PetscErrorCode CheckJoints(const Mesh &mesh, const std::vector<std::string> &nam
       range.kn = std::min(range.kn, t.kn[i] / t.area[i]);
       range.ks = std::min(range.ks, t.ks[i] / t.area[i]);
       if (i > 0 && t.face[i] == t.face[i - 1]) continue;
-      Widen(mesh, materials, joint, mesh.faces[t.face[i]], &range);
+      double property[kMaxProperties];
+      FaceProperties(mesh, joint, mesh.faces[t.face[i]], property);
+      Widen(mesh, materials, joint, mesh.faces[t.face[i]], property, &range);
       if (!HasOwnParams(joint) || !failure.empty()) continue;
-      failure = WrongAt(mesh, joint, mesh.faces[t.face[i]], t.kn[i] / t.area[i], t.ks[i] / t.area[i]);
+      failure = WrongAt(joint, property, t.kn[i] / t.area[i], t.ks[i] / t.area[i]);
       if (!failure.empty()) failure = "interface '" + names[id] + "', as its properties scatter: " + failure;
     }
   PetscCall(CheckFailure(mesh.comm, failure));
@@ -69,9 +67,9 @@ PetscErrorCode CheckJoints(const Mesh &mesh, const std::vector<std::string> &nam
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const FaceRange &range = ranges[i];
     std::string wrong;
-    if (HasOwnParams(joints[i])) continue;  // seen face by face
-    JointLaws::Visit(joints[i].law,
-                     [&](auto law) { wrong = decltype(law)::CheckFace(joints[i].property, range.kn, range.ks); });
+    if (!HasOwnParams(joints[i]))  // others were seen face by face
+      JointLaws::Visit(joints[i].law,
+                       [&](auto law) { wrong = decltype(law)::CheckFace(joints[i].property, range.kn, range.ks); });
     CdemCheck(wrong.empty(), mesh.comm, "interface '%s': %s", names[i].c_str(), wrong.c_str());
     if (range.fineness >= 1 - 1e-9) continue;
     char text[300];

@@ -22,7 +22,7 @@ bool HasOwnParams(const Material &material) {
 
 static double Volume(const Mesh &mesh, PetscInt cell) {
   double x[kMaxCorners][3], volume[kMaxCorners];
-  for (int a = 0; a < Info(mesh.cell_shape[cell]).corners; ++a) std::copy_n(mesh.X(mesh.Corners(cell)[a]), 3, x[a]);
+  CellCorners(mesh, cell, x);
   return CornerVolumes(mesh.cell_shape[cell], x, volume);
 }
 

@@ -25,21 +25,6 @@ PetscInt FaceNode(const Mesh &mesh, const Nodes &nodes, const Face &face, int j,
 
 namespace {
 
-/// Corner coordinates of a cell.
-void CellX(const Mesh &mesh, PetscInt cell, double (*x)[3]) {
-  for (int a = 0; a < Info(mesh.cell_shape[cell]).corners; ++a) std::copy_n(mesh.X(mesh.Corners(cell)[a]), 3, x[a]);
-}
-
-void CellCentre(const Mesh &mesh, PetscInt cell, double *centre) {
-  double x[8][3];
-  CellX(mesh, cell, x);
-  const int corners = Info(mesh.cell_shape[cell]).corners;
-  for (int k = 0; k < 3; ++k) {
-    centre[k] = 0;
-    for (int a = 0; a < corners; ++a) centre[k] += x[a][k] / corners;
-  }
-}
-
 /// Cells with a complete node list, in ascending global number.
 std::vector<PetscInt> ActiveCells(const Mesh &mesh, const Nodes &nodes) {
   std::vector<PetscInt> cells;
@@ -71,6 +56,7 @@ void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Mater
     t.cell = std::move(cells);
     VisitBlock(t.shape, t.form, t.law, [&](auto form, auto law) {
       t.states = decltype(form)::kPoints * decltype(law)::kState;
+      t.breaks = kBreaks<decltype(law)>;
       t.judged = decltype(law)::kJudgesMean;
       t.averages = decltype(form)::kAverages;
     });
@@ -99,7 +85,7 @@ PetscErrorCode BuildMass(const Mesh &mesh, const Nodes &nodes, const std::vector
   for (const ElementTable &t : tables->elements)
     for (int e = 0; e < t.n; ++e) {
       double x[8][3], volume[8];
-      CellX(mesh, t.cell[e], x);
+      CellCorners(mesh, t.cell[e], x);
       CornerVolumes(t.shape, x, volume);
       for (int a = 0; a < t.corners; ++a) {
         const int node = t.node[static_cast<std::size_t>(a) * t.n_pad + e];
@@ -147,8 +133,7 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
       const Face &face = mesh.faces[f];
       if (face_interface[f] < 0 || face.cell[1] < 0 || joints[face_interface[f]].law != law) continue;
-      const ShapeInfo &info = Info(mesh.cell_shape[face.cell[0]]);
-      const int size = info.face_size[face.local[0]];
+      const int size = Info(mesh.cell_shape[face.cell[0]]).face_size[face.local[0]];
       const Joint &joint = joints[face_interface[f]];
       double x[4][3], area[4][3], kn = 0, ks = 0;
       int row = face_interface[f];
@@ -158,8 +143,7 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
         const bool counted = face.cell[0] < mesh.n_owned;
         if (a < 0 || b < 0 || a == b || (!counted && a >= nodes.n_owned && b >= nodes.n_owned)) continue;
         if (!measured) {
-          for (int i = 0; i < size; ++i)
-            std::copy_n(mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][i]]), 3, x[i]);
+          FaceCorners(mesh, face, x);
           FaceVectors(size, x, area);
           FaceStiffness(mesh, materials, joint, face, &kn, &ks);
           ScatterStiffness(mesh, joint, face, &kn, &ks);

@@ -16,7 +16,8 @@ struct ElementTable {
   int form = 0, law = 0;  ///< numbers in the shape's list of forms and in BlockLaws
   int corners = 0;
   int states = 0;         ///< doubles of history an element (points times kState); 0: none, and no state byte
-  bool judged = false;    ///< the law breaks elements, and the time of it is kept
+  bool breaks = false;    ///< the law breaks elements
+  bool judged = false;    ///< by their mean stress, and the time of it is kept
   bool averages = false;  ///< the form averages its dilatation over neighbours: forces/dilatation.hpp
   int n = 0, n_pad = 0;
   std::vector<int> node;      ///< [corner][n_pad] local node

@@ -55,15 +55,6 @@ double DiscInTet(const Plane &plane, const double *const x[4], const double d[4]
 
 }  // namespace
 
-void CellCentre(const Mesh &mesh, PetscInt cell, double centre[3]) {
-  const int corners = Info(mesh.cell_shape[cell]).corners;
-  for (int k = 0; k < 3; ++k) {
-    centre[k] = 0;
-    for (int a = 0; a < corners; ++a) centre[k] += mesh.X(mesh.Corners(cell)[a])[k];
-    centre[k] /= corners;
-  }
-}
-
 double CircleInPolygon(int corners, const double (*x)[2], double radius) {
   const double radius2 = radius * radius;
   double area = 0;
@@ -141,12 +132,11 @@ PetscErrorCode Region::Create(const Mesh &mesh, int region) {
   std::vector<double> centres, cell_volume;
   for (PetscInt c = 0; c < mesh.n_owned; ++c) {
     if (region >= 0 && mesh.cell_region[c] != region) continue;
-    const int corners = Info(mesh.cell_shape[c]).corners;
     double centre[3];
     CellCentre(mesh, c, centre);
+    const int corners = CellCorners(mesh, c, x);
     for (int a = 0; a < corners; ++a) {
       double away = 0;
-      std::copy_n(mesh.X(mesh.Corners(c)[a]), 3, x[a]);
       for (int k = 0; k < 3; ++k) {
         box[k] = std::min(box[k], x[a][k]);
         box[3 + k] = std::min(box[3 + k], -x[a][k]);

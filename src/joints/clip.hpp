@@ -28,7 +28,4 @@ class Region {
   PointBins bins_;
 };
 
-/// Mean of the corners of a cell [m].
-void CellCentre(const Mesh &mesh, PetscInt cell, double centre[3]);
-
 }  // namespace cdem

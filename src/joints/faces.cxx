@@ -7,10 +7,8 @@
 namespace cdem {
 
 static double FaceArea(const Mesh &mesh, const Face &face) {
-  const ShapeInfo &info = Info(mesh.cell_shape[face.cell[0]]);
-  const int size = info.face_size[face.local[0]];
   double x[4][3], vectors[4][3], area = 0;
-  for (int j = 0; j < size; ++j) std::copy_n(mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][j]]), 3, x[j]);
+  const int size = FaceCorners(mesh, face, x);
   FaceVectors(size, x, vectors);
   for (int j = 0; j < size; ++j) area += std::sqrt(Dot(vectors[j], vectors[j]));
   return area;
@@ -22,12 +20,10 @@ FaceTaker::FaceTaker(const Mesh &mesh) : mesh_(mesh), cell_centre_(3 * mesh.n_ce
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const Face &face = mesh.faces[f];
     if (face.cell[1] < 0) continue;
-    const ShapeInfo &info = Info(mesh.cell_shape[face.cell[0]]);
-    const int size = info.face_size[face.local[0]];
-    double centre[3] = {0, 0, 0};
+    double x[4][3], centre[3] = {0, 0, 0};
+    const int size = FaceCorners(mesh, face, x);
     for (int j = 0; j < size; ++j)
-      for (int k = 0; k < 3; ++k)
-        centre[k] += mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][j]])[k] / size;
+      for (int k = 0; k < 3; ++k) centre[k] += x[j][k] / size;
     for (PetscInt c :
          face.cell) {  // where a disc separates the cells, it passes no farther from the face than they lie
       double away = 0;

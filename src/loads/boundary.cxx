@@ -123,10 +123,8 @@ void Prescribe(const Boundary &b, Row &row) {
 /// Adds the integral of N_j t dA of one face to its nodes; pressure pushes against the outward normal.
 void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Face &face,
               std::map<PetscInt, Row> &rows) {
-  const ShapeInfo &info = Info(mesh.cell_shape[face.cell[0]]);
-  const int size = info.face_size[face.local[0]];
   double x[4][3];
-  for (int j = 0; j < size; ++j) std::copy_n(mesh.X(mesh.Corners(face.cell[0])[info.face[face.local[0]][j]]), 3, x[j]);
+  const int size = FaceCorners(mesh, face, x);
   FacePoint points[4];
   const int n = FacePoints(size, x, points);
   for (int j = 0; j < size; ++j) {

@@ -4,6 +4,7 @@
 #include "core/options.hpp"
 #include "mesh/source.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace cdem {
@@ -20,6 +21,29 @@ int Mesh::Find(const std::vector<std::string> &list, const std::string &name) {
     if (list[i] == name) return static_cast<int>(i);
   }
   return -1;
+}
+
+int CellCorners(const Mesh &mesh, PetscInt cell, double (*x)[3]) {
+  const int corners = Info(mesh.cell_shape[cell]).corners;
+  for (int a = 0; a < corners; ++a) std::copy_n(mesh.X(mesh.Corners(cell)[a]), 3, x[a]);
+  return corners;
+}
+
+int FaceCorners(const Mesh &mesh, const Face &face, double (*x)[3]) {
+  const ShapeInfo &info = Info(mesh.cell_shape[face.cell[0]]);
+  const int size = info.face_size[face.local[0]], *corner = info.face[face.local[0]];
+  for (int j = 0; j < size; ++j) std::copy_n(mesh.X(mesh.Corners(face.cell[0])[corner[j]]), 3, x[j]);
+  return size;
+}
+
+void CellCentre(const Mesh &mesh, PetscInt cell, double centre[3]) {
+  double x[kMaxCorners][3];
+  const int corners = CellCorners(mesh, cell, x);
+  for (int k = 0; k < 3; ++k) {
+    centre[k] = 0;
+    for (int a = 0; a < corners; ++a) centre[k] += x[a][k];
+    centre[k] /= corners;
+  }
 }
 
 std::string PlaceText(const double x[3]) {

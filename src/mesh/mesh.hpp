@@ -49,6 +49,12 @@ struct Mesh {
   const double *X(PetscInt vertex) const { return &vertex_x[3 * vertex]; }
 };
 
+/// Corner coordinates [m] of a cell, and of a face in the order of cell[0]; the number of corners.
+int CellCorners(const Mesh &mesh, PetscInt cell, double (*x)[3]);
+int FaceCorners(const Mesh &mesh, const Face &face, double (*x)[3]);
+/// Mean of the corners of a cell [m].
+void CellCentre(const Mesh &mesh, PetscInt cell, double centre[3]);
+
 /// Reads or makes the mesh that the options ask for, checks it and distributes it (collective).
 /// Errors: everything a mesh can have wrong, with its place and number in the file.
 PetscErrorCode CreateMesh(MPI_Comm comm, Options &options, Mesh *mesh);

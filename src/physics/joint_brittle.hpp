@@ -7,10 +7,10 @@
 namespace cdem {
 
 template <bool kDilates>
-struct BrittleLaw : JointLawDefaults {
+struct BrittleLaw : StrengthLawDefaults {
   static constexpr const char *kName = "brittle";
-  enum { kTension, kCohesion, kTanPhi, kKeepTension, kPlainParams };  ///< Pa, Pa, -, 0 or 1
-  enum { kTanPsi = kPlainParams, kDilationSlip, kDilatingParams };    ///< -, m
+  enum { kKeepTension = kStrengthParams, kPlainParams };            ///< 0 or 1
+  enum { kTanPsi = kPlainParams, kDilationSlip, kDilatingParams };  ///< -, m
   static constexpr int kParams = kDilates ? kDilatingParams : kPlainParams;
   static constexpr bool kMayKeepTension = true;
 
@@ -20,22 +20,16 @@ struct BrittleLaw : JointLawDefaults {
 
   static constexpr std::array<Property, 5> kProperties = {
       {{"tension", "Pa", 0, kPropertyInf, kPropertyClosed, "tensile strength"},
-       {"cohesion", "Pa", 0, kPropertyInf, kPropertyClosed, "cohesion"},
-       {"friction", "degrees", 0, 89.9, kPropertyClosed, "angle of friction"},
+       kCohesionProperty,
+       kFrictionProperty,
        kDilationProperties[0],
        kDilationProperties[1]}};
   static bool Serves(const double *property) { return (property[kStrengthDilation] > 0) == kDilates; }
-  static std::string Check(const double *property) { return CheckDilation(property); }
-  static std::string Adjust(double *property) { return CutTension(property); }
 
   static void Derive(const double *property, double *param) {
-    param[kTension] = property[kStrengthTension];
-    param[kCohesion] = property[kStrengthCohesion];
-    param[kTanPhi] = TanOfDegrees(property[kStrengthFriction]);
+    DeriveStrength(property, param);
     param[kKeepTension] = 0;
-    if (!kDilates) return;
-    param[kTanPsi] = TanOfDegrees(property[kStrengthDilation]);
-    param[kDilationSlip] = std::min(property[kStrengthDilationSlip], 1e30);  // products with it stay numbers
+    if (kDilates) DeriveDilation(property, &param[kTanPsi], &param[kDilationSlip]);
   }
 
   /// Force on node b [N]; the slip follows an opening or sliding crack (theory: s = d_s + F_s / K_s).

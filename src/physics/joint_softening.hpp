@@ -9,10 +9,10 @@
 namespace cdem {
 
 template <bool kDilates>
-struct SofteningLaw : JointLawDefaults {
+struct SofteningLaw : StrengthLawDefaults {
   static constexpr const char *kName = "softening";
-  enum { kTension, kCohesion, kTanPhi, kOpeningEnd, kSlipEnd, kPlainParams };  ///< Pa, Pa, -, delta_f and s_f [m]
-  enum { kTanPsi = kPlainParams, kDilationSlip, kDilatingParams };             ///< -, m
+  enum { kOpeningEnd = kStrengthParams, kSlipEnd, kPlainParams };   ///< delta_f and s_f [m]
+  enum { kTanPsi = kPlainParams, kDilationSlip, kDilatingParams };  ///< -, m
   static constexpr int kParams = kDilates ? kDilatingParams : kPlainParams;
 
   /// History: slip s [3], damage D, length of the slip's path; with dilation the opening g that it made [m].
@@ -23,24 +23,18 @@ struct SofteningLaw : JointLawDefaults {
   static constexpr std::array<Property, 7> kProperties = {
       {{"tension", "Pa", 0, kPropertyInf, kPropertyOpen, "tensile strength"},
        {"cohesion", "Pa", 0, kPropertyInf, kPropertyOpen, "cohesion"},
-       {"friction", "degrees", 0, 89.9, kPropertyClosed, "angle of friction"},
+       kFrictionProperty,
        kDilationProperties[0],
        kDilationProperties[1],
        {"gi", "J/m^2", 0, kPropertyInf, kPropertyOpen, "fracture energy in tension"},
        {"gii", "J/m^2", 0, kPropertyInf, kPropertyOpen, "fracture energy in shear, above friction"}}};
   static bool Serves(const double *property) { return (property[kStrengthDilation] > 0) == kDilates; }
-  static std::string Check(const double *property) { return CheckDilation(property); }
-  static std::string Adjust(double *property) { return CutTension(property); }
 
   static void Derive(const double *property, double *param) {
-    param[kTension] = property[kStrengthTension];
-    param[kCohesion] = property[kStrengthCohesion];
-    param[kTanPhi] = TanOfDegrees(property[kStrengthFriction]);
+    DeriveStrength(property, param);
     param[kOpeningEnd] = 2 * property[kGI] / param[kTension];
     param[kSlipEnd] = 2 * property[kGII] / param[kCohesion];
-    if (!kDilates) return;
-    param[kTanPsi] = TanOfDegrees(property[kStrengthDilation]);
-    param[kDilationSlip] = std::min(property[kStrengthDilationSlip], 1e30);  // products with it stay numbers
+    if (kDilates) DeriveDilation(property, &param[kTanPsi], &param[kDilationSlip]);
   }
 
   /// The fall must be longer than the rise: delta_f > sigma_t / k_n and s_f > c / k_s.

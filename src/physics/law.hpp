@@ -51,6 +51,10 @@ struct BlockLawDefaults {
   static std::string Remark(const double *) { return {}; }
 };
 
+/// Elements of the law break, by their mean stress or at their corners.
+template <class Law>
+inline constexpr bool kBreaks = Law::kJudgesMean || Law::kAtCorners;
+
 inline constexpr int kMaxSpringState = 8;  ///< doubles of history an interface law may keep per spring
 
 /// What an interface law is unless it says otherwise. Laws may share a name (and then have the same properties): a scene

@@ -28,7 +28,6 @@ static void RegisterLaw(const std::string &prefix) {
       fallback = p.fallback_text;
     else if (!std::isnan(p.fallback))
       fallback = *p.words ? SplitList(p.words)[static_cast<int>(p.fallback)] : Text(p.fallback);
-    if (*p.fallback_text) fallback = p.fallback_text;
     AddOption(
         {name.c_str(), *p.words ? OptionType::kWord : OptionType::kReal, p.unit, fallback.c_str(), p.text, p.words});
     if (Scatters(p)) {

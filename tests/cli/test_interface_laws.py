@@ -1,11 +1,12 @@
 """Bad numbers of the interface laws: refused like every bad input, before anything is computed."""
+import json
 import sys
 from pathlib import Path
 
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from test_errors import DROP, JOINTS, assert_refused, changed, harness, text_of  # noqa: E402
+from test_errors import DROP, JOINTS, SPRINGS, assert_refused, changed, harness, text_of  # noqa: E402
 
 SOFT = {**JOINTS, "interface_joints_law": "softening", "interface_joints_gi": 50.0, "interface_joints_gii": 200.0}
 DILATING = {"interface_joints_dilation": 30.0, "interface_joints_dilation_slip": 1e-3}
@@ -58,11 +59,21 @@ def test_cut_tension_is_said(tmp_path):
     assert "tension cut to cohesion / tan(friction) = 173205" in text_of(done)
 
 
-@pytest.mark.parametrize("gi, said", [(50.0, False), (25.0, True)])
-def test_cells_too_large_for_softening_are_said(gi, said, tmp_path):
+@pytest.mark.parametrize("gi, scatter, said", [(50.0, DROP, False), (25.0, DROP, True), (25.0, "uniform:1e-6", True)])
+def test_cells_too_large_for_softening_are_said(gi, scatter, said, tmp_path):
     """h <= l_ch/5: here E gi/tension^2/5 = 1 m (0.5 m), and cells of 1 m."""
-    done = harness.call(tmp_path, changed({**SOFT, "interface_joints_gi": gi}))
+    done = harness.call(tmp_path, changed({**SOFT, "interface_joints_gi": gi, "interface_joints_gi_scatter": scatter}))
     assert done.returncode == 0, text_of(done)
     lines = [line for line in text_of(done).splitlines() if "too large" in line]
     assert bool(lines) == said, text_of(done)
     assert not said or all(word in lines[0] for word in ("joints", "2 times", "l_ch")), lines
+
+
+def test_blocks_of_springs_count_as_broken_blocks(tmp_path):
+    """A box whose top is drawn away by ten times the strain it bears: every block breaks."""
+    pulled = {**SPRINGS, "mesh_box_cells": (2, 2, 1), "gravity": (0, 0, 0), "boundaries": ("zmin", "zmax"),
+              "boundary_zmax_velocity": (0, 0, 20.0), "ts_max_steps": 40}
+    done = harness.call(tmp_path, changed(pulled))
+    assert done.returncode == 0, text_of(done)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["broken_blocks"] == 1
