@@ -152,6 +152,20 @@ class CudaBackend final : public Backend {
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
+  PetscErrorCode Upload(const double *u, const double *v, const Histories &history) override {
+    PetscFunctionBeginUser;
+    const std::size_t bytes = 3 * sizeof(double) * t_.n_owned;
+    PetscScalar *array;
+    for (auto [vec, from] : {std::pair<Vec, const double *>{vec_u_, u}, {vec_v_, v}}) {
+      PetscCall(VecCUDAGetArrayWrite(vec, &array));
+      CdemCuda(cudaMemcpy(array, from, bytes, cudaMemcpyHostToDevice));
+      PetscCall(VecCUDARestoreArrayWrite(vec, &array));
+    }
+    PetscCall(tables_.UploadHistories(history));
+    CdemCuda(cudaDeviceSynchronize());
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
   PetscErrorCode Synchronize() override {
     PetscFunctionBeginUser;
     CdemCuda(cudaDeviceSynchronize());

@@ -52,6 +52,14 @@ class DeviceArray {
     if (size_ > 0) CdemCuda(cudaMemcpy(data_, host.data(), size_ * sizeof(T), cudaMemcpyHostToDevice));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  /// Writes over what is there; sizes must agree.
+  PetscErrorCode Overwrite(const std::vector<T> &host) {
+    PetscFunctionBeginUser;
+    PetscCheck(host.size() == size_, PETSC_COMM_SELF, PETSC_ERR_PLIB, "%zu values for an array of %zu", host.size(),
+               size_);
+    if (size_ > 0) CdemCuda(cudaMemcpy(data_, host.data(), size_ * sizeof(T), cudaMemcpyHostToDevice));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscErrorCode Download(std::vector<T> *host) const {
     PetscFunctionBeginUser;
     host->resize(size_);

@@ -199,4 +199,18 @@ PetscErrorCode DeviceTables::DownloadHistories(Histories *histories) const {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode DeviceTables::UploadHistories(const Histories &histories) {
+  PetscFunctionBeginUser;
+  for (std::size_t g = 0; g < elements_.size(); ++g) {
+    PetscCall(elements_[g].state.Overwrite(histories.elements[g].state));
+    PetscCall(elements_[g].value.Overwrite(histories.elements[g].value));
+    PetscCall(elements_[g].broken_time.Overwrite(histories.elements[g].broken_time));
+  }
+  for (std::size_t g = 0; g < springs_.size(); ++g) {
+    PetscCall(springs_[g].state.Overwrite(histories.springs[g].state));
+    PetscCall(springs_[g].history.Overwrite(histories.springs[g].values));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 }  // namespace cdem

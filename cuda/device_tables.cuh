@@ -23,6 +23,7 @@ class DeviceTables {
   /// Sums over what this rank counts; waits for them.
   PetscErrorCode Observe(const NodeView &nodes, const StepArgs &args, cudaStream_t stream, Observed *observed);
   PetscErrorCode DownloadHistories(Histories *histories) const;
+  PetscErrorCode UploadHistories(const Histories &histories);
 
  private:
   struct Elements {

@@ -48,6 +48,8 @@ class Backend {
   virtual PetscErrorCode Observe(const StepArgs &next, const double *schedule, Observed *observed) = 0;
   /// Host copies of u, v [n_local][3] (ghosts up to date) and of the histories; pointers stay valid until the next call.
   virtual PetscErrorCode Download(const double **u, const double **v, const Histories **history) = 0;
+  /// Sets u, v [n_owned][3] (host) and the histories: a run that goes on from a checkpoint or an earlier stage.
+  virtual PetscErrorCode Upload(const double *u, const double *v, const Histories &history) = 0;
   /// Wall time of the steps by phase [s]: elements, springs, nodes, halo. Empty where the phases run in one graph.
   virtual std::vector<std::pair<std::string, double>> Phases() const { return {}; }
   /// Waits until everything launched has run.

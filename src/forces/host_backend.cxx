@@ -136,11 +136,7 @@ class HostBackend final : public Backend {
         return PETSC_SUCCESS;
       }));
     }
-    for (Vec vec : {vec_u_, vec_v_}) {  // PETSc must know that the values changed
-      PetscScalar *values;
-      PetscCall(VecGetArray(vec, &values));
-      PetscCall(VecRestoreArray(vec, &values));
-    }
+    PetscCall(TellVecs());
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
@@ -162,6 +158,14 @@ class HostBackend final : public Backend {
     *history = &history_;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  PetscErrorCode Upload(const double *u, const double *v, const Histories &history) override {
+    PetscFunctionBeginUser;
+    std::copy_n(u, 3 * static_cast<std::size_t>(t_.n_owned), u_.data());
+    std::copy_n(v, 3 * static_cast<std::size_t>(t_.n_owned), v_.data());
+    history_ = history;
+    PetscCall(TellVecs());
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscErrorCode Synchronize() override { return PETSC_SUCCESS; }
   std::vector<std::pair<std::string, double>> Phases() const override {
     return {{"elements", elements_}, {"springs", springs_}, {"nodes", nodes_}, {"halo", halo_}};
@@ -171,6 +175,16 @@ class HostBackend final : public Backend {
   }
 
  private:
+  /// PETSc must know that the values of the Vecs changed.
+  PetscErrorCode TellVecs() {
+    PetscFunctionBeginUser;
+    for (Vec vec : {vec_u_, vec_v_}) {
+      PetscScalar *values;
+      PetscCall(VecGetArray(vec, &values));
+      PetscCall(VecRestoreArray(vec, &values));
+    }
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   template <bool kRecords>
   int Nodes(const NodeView &view, const StepArgs &args, int step) {
     int bad = -1;
