@@ -11,6 +11,8 @@ PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells) {
   PetscCall(x_.Upload(tables.x));
   PetscCall(mass_.Upload(tables.mass));
   PetscCall(inverse_mass_.Upload(tables.inverse_mass));
+  PetscCall(weight_.Upload(tables.weight));
+  if (tables.combined) PetscCall(last_.Allocate(3 * static_cast<std::size_t>(tables.n_owned)));
   PetscCall(block_param_.Upload(tables.block_param));
   PetscCall(joint_param_.Upload(tables.joint_param));
   PetscCall(slots_.Allocate(3 * tables.n_slots));
@@ -105,7 +107,7 @@ std::size_t DeviceTables::Bytes() const {
   std::size_t bytes = 0;
   auto add = [&](const auto &...array) { ((bytes += array.bytes()), ...); };
   add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_,
-      load_start_, load_table_, watch_, kind_, value_, load_, partial_, undamped_);
+      load_start_, load_table_, watch_, kind_, value_, load_, weight_, last_, partial_, undamped_);
   add(averages_.start, averages_.entry, averages_.inverse_volume, averages_.dilatation, averages_.pressure,
       averages_.of_dilatation, averages_.of_pressure);
   for (const Elements &e : elements_) add(e.node, e.material, e.layer, e.counted, e.state, e.value, e.broken_time);
@@ -119,6 +121,8 @@ NodeView DeviceTables::Nodes(double *u, double *v, const double *schedule, doubl
   n.u = u;
   n.v = v;
   n.inverse_mass = inverse_mass_.get();
+  n.weight = weight_.get();
+  n.last = last_.get();
   n.record = record_.get();
   n.kind = kind_.get();
   n.value = value_.get();

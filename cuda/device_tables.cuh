@@ -62,6 +62,7 @@ class DeviceTables {
   DeviceArray<int> record_, table_, load_start_, load_table_, watch_;
   DeviceArray<std::uint8_t> kind_;
   DeviceArray<double> value_, load_;
+  DeviceArray<double> weight_, last_;       // of damped nodes
   DeviceArray<double> partial_, undamped_;  // only once something is observed
 };
 

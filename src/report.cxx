@@ -1,7 +1,10 @@
 // The part of Simulation that speaks: the header at the start, the summary and the timing at the end.
 #include "cdem_config.h"
+#include "core/error.hpp"
 #include "io/safe_file.hpp"
 #include "simulation.hpp"
+
+#include <algorithm>
 
 namespace cdem {
 
@@ -43,12 +46,13 @@ PetscErrorCode Simulation::PrintHeader() {
   if (n_interface_faces_ > 0)
     PetscCall(
         line("interfaces", std::to_string(n_interface_faces_) + " faces, " + std::to_string(n_springs_) + " springs"));
-  for (std::size_t i = 0; i < joints_.size(); ++i)
-    if (joints_[i].kn < 0 || joints_[i].ks < 0) {
+  for (std::size_t i = 0; i < Now().joints.size(); ++i)
+    if (Now().joints[i].kn < 0 || Now().joints[i].ks < 0) {
       std::snprintf(
           text, sizeof text,
           "%s: stiffness %g times that of the blocks: where every face is one, the body is %.3g times as stiff",
-          interface_names_[i].c_str(), joints_[i].stiffness_factor, 1 / (1 + 1 / joints_[i].stiffness_factor));
+          interface_names_[i].c_str(), Now().joints[i].stiffness_factor,
+          1 / (1 + 1 / Now().joints[i].stiffness_factor));
       PetscCall(line("", text));
     }
   PetscCall(PrintJointSets());
@@ -79,9 +83,11 @@ PetscErrorCode Simulation::PrintHeader() {
   if (ts_monitor && !batch_given_)
     PetscCall(
         line("note", "-ts_monitor prints when a batch of steps ends; for every N steps give -ts_central_batch N"));
-  for (const std::string &remark : remarks_) PetscCall(line("note", remark));
+  for (auto remark = remarks_.begin(); remark != remarks_.end(); ++remark)  // stages may say the same
+    if (std::find(remarks_.begin(), remark, *remark) == remark) PetscCall(line("note", *remark));
   std::snprintf(text, sizeof text, "%.3g s", wall_setup_);
   PetscCall(line("set-up", text));
+  PetscCall(PrintStage());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -162,12 +168,34 @@ nlohmann::json Simulation::Summary() const {
                  {"spring", last_.spring},
                  {"form", last_.form},
                  {"error", nullptr}};
-  nlohmann::json stage;  // one so far
-  for (const char *key : {"steps", "time", "dt", "dt_critical", "broken_springs", "wall", "energy", "validity"})
-    stage[key] = s[key];
-  if (n_breakable_ > 0) stage["broken_blocks"] = s["broken_blocks"];
-  s["stages"] = nlohmann::json::array({stage});
+  s["stages"] = stage_summaries_;
   return s;
+}
+
+nlohmann::json Simulation::StageSummary() const {
+  const nlohmann::json all = Summary();
+  nlohmann::json stage;
+  if (Staged()) stage["name"] = Now().name;
+  stage["solve"] = Now().relax ? "relax" : "dynamic";
+  for (const char *key : {"elements", "springs", "time", "dt", "dt_critical", "broken_springs", "energy", "validity"})
+    stage[key] = all[key];
+  stage["steps"] = steps_ - stage_step_;
+  if (n_breakable_ > 0) stage["broken_blocks"] = all["broken_blocks"];
+  if (relaxation_) {
+    stage["balanced"] = balanced_;
+    stage["unbalanced_ratio"] = relaxation_->last().unbalanced;
+    stage["kinetic_over_peak"] = relaxation_->peak() > 0 ? relaxation_->last().kinetic / relaxation_->peak() : 0.0;
+  }
+  return stage;
+}
+
+PetscErrorCode Simulation::PrintStage() {
+  PetscFunctionBeginUser;
+  if (!Staged()) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(comm_, "stage       %s: %s from step %lld, time %.6g s, dt %.6g s; %s; %lld springs\n",
+                        Now().name.c_str(), Now().relax ? "relax" : "dynamic", static_cast<long long>(stage_step_),
+                        stage_time_, dt_, Names(n_cells_).c_str(), static_cast<long long>(n_springs_)));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode Simulation::Finish() {
@@ -184,6 +212,7 @@ PetscErrorCode Simulation::Finish() {
                         static_cast<long long>(steps_), time_, wall_solve_, wall_output_,
                         summary["element_steps_per_second"].get<double>() / 1e6));
   if (!output_dir_.empty()) PetscCall(WriteSummary(comm_, output_dir_, summary));
+  CdemCheck(failure_.empty(), comm_, "%s", failure_.c_str());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

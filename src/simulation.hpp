@@ -1,4 +1,5 @@
-// One run: owns mesh, tables, state, TS and what watches them; set-up in reading order.
+// One run: owns mesh, tables, state, TS and what watches them. Set-up is in simulation.cxx, the stages of a run in stage.cxx,
+// its steps in advance.cxx, what looks at them in watch.cxx, relaxation in relax.cxx, what it says in report.cxx.
 #pragma once
 #include "core/options.hpp"
 #include "forces/backend.hpp"
@@ -8,6 +9,7 @@
 #include "forces/validity.hpp"
 #include "io/watch.hpp"
 #include "joints/network.hpp"
+#include "scene.hpp"
 #include "time/ts_central.hpp"
 
 namespace cdem {
@@ -21,7 +23,7 @@ class Simulation final : public Stepper {
   PetscErrorCode SetUp();
   /// Runs to the end.
   PetscErrorCode Solve();
-  /// Last rows of the histories, summary.json, timing lines.
+  /// Last rows of the histories, summary.json, timing lines. Error: a relaxation that did not reach balance.
   PetscErrorCode Finish();
 
   // What tests and other programs may look at.
@@ -32,7 +34,7 @@ class Simulation final : public Stepper {
   const Tables &tables() const { return tables_; }
   const std::vector<int> &face_interface() const { return face_interface_; }
   const std::vector<JointSet> &joint_sets() const { return joint_sets_; }
-  const std::vector<Material> &materials() const { return materials_; }
+  const std::vector<Material> &materials() const { return Now().materials; }
   const StepBound &bound() const { return bound_; }
   double dt() const { return dt_; }
   Backend &backend() { return *backend_; }
@@ -43,12 +45,31 @@ class Simulation final : public Stepper {
  private:
   /// Begins a phase of the set-up for wall_phases_; the one before ends.
   void Phase(const char *name);
-  PetscErrorCode ReadScene();
+  PetscErrorCode ReadInput();
   PetscErrorCode BuildModel();
-  PetscErrorCode ChooseStep();
   PetscErrorCode CreateBackend();
-  PetscErrorCode CreateTS();
+  PetscErrorCode SetInitialStress();
   PetscErrorCode SetInitialVelocity();
+
+  // stages
+  const Scene &Now() const { return scenes_[stage_]; }
+  bool Staged() const { return !scenes_[0].name.empty(); }
+  PetscErrorCode BuildStage();  ///< tables of the present stage, with all their checks
+  PetscErrorCode CountStage();
+  PetscErrorCode ChooseStep();
+  PetscErrorCode CreateTS(double dt_old);
+  PetscErrorCode NextStage();
+  PetscErrorCode EndStage();
+  PetscErrorCode PrintStage();
+  nlohmann::json StageSummary() const;
+
+  // relaxation
+  static PetscErrorCode WatchBalance(TS ts);
+  PetscErrorCode CheckBalance(PetscInt step);
+  PetscErrorCode Kinetic(double *energy);
+  PetscInt StepsToCheck(PetscInt step) const;
+  PetscErrorCode StopMotion();
+  PetscErrorCode ReportImbalance();
   PetscErrorCode PrintHeader();
   PetscErrorCode PrintJointSets();
   PetscErrorCode WriteJointSets();
@@ -61,31 +82,39 @@ class Simulation final : public Stepper {
   PetscErrorCode FirstFailure(const Failure &failure, int *step);
   PetscErrorCode ReportFailure(const StepPlan &plan, const Failure &failure);
   StepArgs MakeArgs(double dt_old, double dt) const;
-  void FillSchedule(double t, double dt, double *row) const;
+  void FillSchedule(double t, double dt, double *row) const;  ///< t: since the stage began [s]
 
   MPI_Comm comm_;
   Options options_;
   Mesh mesh_;
   Nodes nodes_;
-  std::vector<std::string> interface_names_, table_names_, remarks_;
+  std::vector<std::string> interface_names_, remarks_;
   std::vector<int> face_interface_;
   std::vector<JointSet> joint_sets_;
-  std::vector<Material> materials_;
-  std::vector<Joint> joints_;
-  std::vector<TimeTable> time_tables_;
-  std::vector<Boundary> boundaries_;
+  std::vector<Scene> scenes_;
+  std::size_t stage_ = 0;
   std::vector<History> histories_;
   Tables tables_;
   std::unique_ptr<Backend> backend_;
   Vec u_ = nullptr, v_ = nullptr;
+  Vec mass_ = nullptr, momentum_ = nullptr;  // of kinetic damping
   TS ts_ = nullptr;
 
   // time
-  double dt_ = 0, safety_ = 0.9;
+  double dt_ = 0;
   StepBound bound_;
-  bool bound_known_ = false, has_end_time_ = false, has_end_step_ = false;
-  double end_time_ = 0;
-  PetscInt end_step_ = PETSC_INT_MAX, last_step_ = PETSC_INT_MAX;
+  bool bound_known_ = false;
+  PetscInt last_step_ = PETSC_INT_MAX;       // of the stage, as far as known
+  double stage_time_ = 0, pseudo_time_ = 0;  // s; at the stage's beginning; spent in relaxations before it
+  PetscInt stage_step_ = 0;                  // at the stage's beginning
+  std::vector<double> origin_;               // [n_owned][3] of reported displacements [m]; empty: none was reset
+
+  // relaxation
+  std::unique_ptr<Relaxation> relaxation_;      // NULL in dynamic stages
+  double alpha_ = 0, local_ = 0;                // damping by mass now [1/s], and of nodes
+  std::vector<double> last_u_, last_residual_;  // at the last check
+  bool balanced_ = false;
+  std::string failure_;  // why the run ended early; "": it did not
 
   // watching
   std::string output_dir_, device_ = "auto";
@@ -106,6 +135,9 @@ class Simulation final : public Stepper {
   Observed last_;
   Validity validity_;  // at the last frame or the end
   bool warned_slip_ = false, warned_rotation_ = false;
+  bool with_plastic_ = false, with_broken_ = false;  // fields of some stage
+  nlohmann::json stage_summaries_ = nlohmann::json::array();
+  double wall_stages_ = 0;
 };
 
 }  // namespace cdem

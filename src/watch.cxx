@@ -10,11 +10,16 @@ namespace cdem {
 PetscInt Simulation::StepsToNext(PetscInt step, PetscReal time, PetscReal dt) {
   PetscInt n = monitors_.ToNext(step, time, dt);
   if (!output_dir_.empty()) n = std::min(n, frame_interval_.ToNext(step, time, dt));
+  if (relaxation_) n = std::min(n, StepsToCheck(step));
   return n;
 }
 
 PetscErrorCode Simulation::MonitorTS(TS, PetscInt step, PetscReal time, Vec, void *ctx) {
-  return static_cast<Simulation *>(ctx)->Watch(step, time);
+  Simulation &run = *static_cast<Simulation *>(ctx);
+  PetscFunctionBeginUser;
+  if (run.relaxation_ && step == run.stage_step_) PetscCall(run.CheckBalance(step));
+  if (step > run.stage_step_ || run.stage_ == 0) PetscCall(run.Watch(step, time));  // else the stage before has looked
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 bool Simulation::AtEnd() const {
@@ -29,7 +34,7 @@ PetscErrorCode Simulation::Watch(PetscInt step, double time) {
   PetscCall(TSCentralGetLastStep(ts_, &dt));
   const bool last = AtEnd();
   steps_ = step;
-  time_ = time;
+  time_ = Now().relax ? stage_time_ : time;  // a relaxation advances no time
   const double reached = dt > 0 ? dt : dt_;
   const double begin = MPI_Wtime();
   if (monitors_.Due(step, time, reached, last)) {
@@ -41,8 +46,8 @@ PetscErrorCode Simulation::Watch(PetscInt step, double time) {
     sight.breakable = static_cast<double>(n_breakable_);
     if (monitors_.Observes(step, time, reached, last)) {
       PetscCall(PetscLogEventBegin(events.observe, nullptr, nullptr, nullptr, nullptr));
-      std::vector<double> schedule(3 * time_tables_.size());
-      FillSchedule(time, reached, schedule.data());
+      std::vector<double> schedule(3 * Now().tables.size());
+      FillSchedule(time - stage_time_, reached, schedule.data());
       PetscCall(backend_->Observe(MakeArgs(dt, reached), schedule.data(), &sight.observed));
       PetscCall(SumOverRanks(comm_, &sight.observed));
       last_ = sight.observed;
@@ -66,8 +71,8 @@ PetscErrorCode Simulation::WriteFrame(PetscInt step, double time) {
   double dt;
   PetscCall(TSCentralGetLastStep(ts_, &dt));
   const double reached = dt > 0 ? dt : dt_;
-  std::vector<double> schedule(3 * time_tables_.size()), v_now, stress(6 * static_cast<std::size_t>(mesh_.n_owned));
-  FillSchedule(time, reached, schedule.data());
+  std::vector<double> schedule(3 * Now().tables.size()), v_now, stress(6 * static_cast<std::size_t>(mesh_.n_owned));
+  FillSchedule(time - stage_time_, reached, schedule.data());
   ElementResults elements;
   SpringResults springs;
   elements.stress = stress.data();
@@ -75,9 +80,17 @@ PetscErrorCode Simulation::WriteFrame(PetscInt step, double time) {
   PetscCall(ObserveOnHost(tables_, static_cast<int>(mesh_.n_owned), u, v, *history, MakeArgs(dt, reached),
                           schedule.data(), &elements, &springs, &v_now, &last_));
   PetscCall(SumOverRanks(comm_, &last_));
-  PetscCall(fields_.Write(step, time, u, v_now, stress, springs, *history));
+  std::vector<double> since;  // displacements from the origin that was set last
+  const double *reported = u;
+  if (!origin_.empty()) {
+    since.assign(u, u + 3 * static_cast<std::size_t>(tables_.n_local));
+    for (std::size_t i = 0; i < origin_.size(); ++i) since[i] -= origin_[i];
+    reported = since.data();
+  }
+  PetscCall(fields_.Write(step, time + pseudo_time_, reported, v_now, stress, springs, *history));
   PetscCall(WatchValidity(u));
-  if (AtEnd() && !recorder_.Empty()) PetscCall(recorder_.RecordLast(step, time, u, v_now.data()));
+  const bool end = AtEnd() && (stage_ + 1 == scenes_.size() || (relaxation_ && !balanced_));
+  if (end && !recorder_.Empty()) PetscCall(recorder_.RecordLast(step, time_, u, v_now.data()));
   PetscCall(PetscLogEventEnd(events.frame, nullptr, nullptr, nullptr, nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

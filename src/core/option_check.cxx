@@ -54,6 +54,18 @@ std::string Options::Complaint(const std::string &left, int *rank) const {
   const std::vector<std::string> known = Known();
   const std::string given = "-" + left;
   if (IsOneOf(LatePetscOptions(), left)) return "";
+  const auto stages = declared_.find("stage");
+  if (stages != declared_.end())
+    for (const std::string &stage : stages->second) {
+      const std::string head = "stage_" + Lower(stage) + "_";
+      if (Lower(left).rfind(head, 0) != 0) continue;
+      const std::string inner = left.substr(head.size());
+      *rank = 2;
+      if (IsOneOf(known, inner) || IsOneOf(LatePetscOptions(), inner))
+        return given + ": a stage cannot change -" + inner + ", or has no use for it; take it out";
+      const std::string complaint = Complaint(inner, rank);
+      return "in stage " + stage + ": " + complaint;
+    }
   if (IsOneOf(known, left)) {
     *rank = 2;
     return "this scene has no use for " + given +

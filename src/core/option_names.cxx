@@ -42,6 +42,8 @@ std::string Expected(const OptionSpec &spec) {
       return "a number" + unit;
     case OptionType::kReals:
       return "3 numbers" + unit + " joined by commas";
+    case OptionType::kTensor:
+      return "6 numbers" + unit + " (xx, yy, zz, xy, yz, xz) joined by commas";
     case OptionType::kInts:
       return "3 integers" + unit + " joined by commas";
     case OptionType::kWord:

@@ -24,6 +24,8 @@ static std::vector<OptionSpec> &Registry() {
       {"block_<region>_poisson", T::kReal, "", "required", "Poisson's ratio, above -1 and below 0.5", ""},
       {"block_<region>_density", T::kReal, "kg/m^3", "required", "density", ""},
 
+      {"block_<region>_stress", T::kTensor, "Pa", "0", "stress that is there from the start, at z = 0; tension is positive. Interfaces carry it too", ""},
+      {"block_<region>_stress_gradient_z", T::kTensor, "Pa/m", "0", "what it has more per metre of z", ""},
       {"block_<region>_release_interfaces", T::kFlag, "", "false", "law breakage: an element that breaks breaks the interfaces on its faces too (on the CPU so far)", ""},
       {"block_<region>_scatter_volume", T::kReal, "m^3", "none", "volume V0 for which the Weibull means hold: an element of volume V has (V0/V)^(1/m) times them", ""},
 
@@ -79,15 +81,28 @@ static std::vector<OptionSpec> &Registry() {
 
       {"damping_alpha", T::kReal, "1/s", "0", "Rayleigh damping by mass", ""},
       {"damping_beta", T::kReal, "s", "0", "Rayleigh damping by stiffness; it lowers the critical step", ""},
+      {"damping_local", T::kReal, "", "0", "local damping: this share of a node's force opposes its motion (below 1)", ""},
 
-      {"solve", T::kWord, "", "dynamic", "what is computed: motion in time", "dynamic"},
+      {"solve", T::kWord, "", "dynamic", "what is computed: motion in time, or relaxation to equilibrium", "dynamic,relax"},
       {"ts_max_time", T::kReal, "s", "", "the end; the last step lands on it", ""},
       {"ts_max_steps", T::kInt, "", "", "the most steps", ""},
       {"ts_dt", T::kReal, "s", "by `-ts_central_safety`", "the step", ""},
       {"ts_central_safety", T::kReal, "", "0.9", "the step, unless `-ts_dt` gives it, is this times the critical one, fitted to the end time", ""},
       {"ts_central_check", T::kWord, "", "error", "what to do when `-ts_dt` is above the critical step", "error,warn,off"},
       {"ts_central_batch", T::kInt, "", "1000", "most steps that TS takes as one, up to the next thing due; PETSc's monitors see batch ends", ""},
+      {"relax_damping", T::kWord, "", "rayleigh", "what brings it to rest. rayleigh: by mass, critical for the lowest frequency that the motion shows (or `-damping_alpha`, where given); local: 0.8 of the force opposes the motion (or `-damping_local`); combined: half of that opposes the motion, half the change of the force; kinetic: velocities are cleared at every peak of the kinetic energy", "local,kinetic,rayleigh,combined"},
+      {"relax_ratio", T::kReal, "", "1e-6", "in balance: at most this ratio of unbalanced forces to forces of corners and springs, at two checks in a row", ""},
+      {"relax_kinetic", T::kReal, "", "1e-10", "and at most this share of the largest kinetic energy", ""},
+      {"relax_density_scaling", T::kFlag, "", "true", "masses, not weights, are scaled so that every node runs at one step", ""},
+      {"relax_max_steps", T::kInt, "steps", "1000000", "not in balance by then: an error", ""},
+      {"relax_interval", T::kInt, "steps", "100", "between two checks", ""},
       {"deterministic", T::kFlag, "", "false", "only ways of computing that repeat to the last bit", ""},
+
+      {"stages", T::kNames, "", "", "declares the stages of a run, in order; `-stage_<name>_<option>` overrides that option from this stage on", ""},
+      {"stage_<name>_remove", T::kNames, "", "", "regions that leave at its beginning, with their springs", ""},
+      {"stage_<name>_reset", T::kWord, "", "", "what is set back at its beginning: displacements are reported from there on; forces stay", "displacement"},
+      {"stage_<name>_intact", T::kFlag, "", "false", "nothing fails in this stage; what has failed stays so", ""},
+      {"stage_<name>_strength_factor", T::kReal, "", "1", "strengths are divided by it (cohesion, tension, the tangent of friction), from this stage on", ""},
 
       {"monitor_progress", T::kViewer, "", "", "prints step, time, rate and time left", ""},
       {"monitor_progress_interval", T::kInt, "steps", "20 lines a run", "every so many steps", ""},
@@ -135,6 +150,10 @@ const std::vector<OptionSection> &OptionSections() {
       {"tables", "Time tables", ""},
       {"damping_alpha", "Damping", ""},
       {"solve", "Solution", "How long it runs is said with PETSc's `-ts_max_time` or `-ts_max_steps` (below)."},
+      {"stages", "Stages",
+       "Every stage goes on from the end of the one before, and has every option that it does not override. "
+       "`remove`, `reset` and `intact` hold for their stage alone. Times of tables, `-ts_max_time` and `-ts_max_steps` "
+       "count from its beginning."},
       {"monitor_progress", "Watching",
        "A monitor prints to the terminal, or where PETSc's viewer syntax says: `-monitor_energy ascii:energy.txt`."},
       {"output", "Output", ""},

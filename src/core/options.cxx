@@ -28,11 +28,28 @@ std::string Options::Spelled(const OptionKey &key) {
 void Options::Declare(const std::string &family, const std::vector<std::string> &names) {
   for (const OptionSpec &spec : OptionSpecs()) {
     const OptionPattern pattern(spec);
-    if (!pattern.Plain() && pattern.family == family) {
-      declared_[pattern.noun] = names;
-      return;
-    }
+    if (pattern.Plain() || pattern.family != family) continue;
+    std::vector<std::string> &all = declared_[pattern.noun];
+    for (const std::string &name : names)
+      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+    return;
   }
+}
+
+/// Finds an option by its whole name, or as the last stage that overrides it has it; all of them then count as read.
+PetscErrorCode Options::Find(const std::string &name, bool *set, const char **value, std::string *spelled) {
+  PetscFunctionBeginUser;
+  PetscCall(FindGiven(name, set, value));
+  *spelled = "-" + name;
+  for (const std::string &stage : stages_) {
+    const std::string in_stage = "stage_" + stage + "_" + name;
+    const char *other;
+    bool given;
+    PetscCall(FindGiven(in_stage, &given, &other));
+    if (!given) continue;
+    *set = true, *value = other, *spelled = "-" + in_stage;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /// Finds the option by its name, else everybody's; both then count as read.
@@ -46,11 +63,11 @@ PetscErrorCode Options::Raw(const OptionKey &key, std::vector<OptionType> types,
   const OptionPattern pattern(*spec);
   const char *value = nullptr, *everybodys_value = nullptr;
   bool named = false, everybodys = false;
-  if (!key.name.empty()) PetscCall(FindGiven(pattern.Spell(key.name), &named, &value));
-  PetscCall(FindGiven(pattern.Spell(""), &everybodys, &everybodys_value));
-  if (!named) value = everybodys_value;
+  std::string everybodys_name;
+  if (!key.name.empty()) PetscCall(Find(pattern.Spell(key.name), &named, &value, &given->spelled));
+  PetscCall(Find(pattern.Spell(""), &everybodys, &everybodys_value, &everybodys_name));
+  if (!named) value = everybodys_value, given->spelled = everybodys_name;
   given->set = named || everybodys;
-  given->spelled = "-" + pattern.Spell(named ? key.name : "");
   given->text = given->set && value ? value : "";
   const bool may_be_empty = spec->type == OptionType::kFlag || spec->type == OptionType::kViewer;
   CdemCheck(!given->set || may_be_empty || !given->text.empty(), comm_, "%s has no value; give %s",
@@ -153,7 +170,7 @@ PetscErrorCode Options::Reals(const OptionKey &key, int n, double *values, bool 
   Given given;
   std::vector<std::string> words;
   PetscFunctionBeginUser;
-  PetscCall(Raw(key, {OptionType::kReals}, set, &given));
+  PetscCall(Raw(key, {OptionType::kReals, OptionType::kTensor}, set, &given));
   if (set) *set = given.set;
   if (!given.set) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Count(given, n, &words));

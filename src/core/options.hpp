@@ -10,10 +10,11 @@
 
 namespace cdem {
 
-enum class OptionType { kFlag, kInt, kReal, kReals, kInts, kWord, kText, kNames, kViewer };
+enum class OptionType { kFlag, kInt, kReal, kReals, kTensor, kInts, kWord, kText, kNames, kViewer };
 
 /// One row of the registry. Names of a family carry a placeholder: "block_<region>_young" is -block_rock_young for
-/// region rock and -block_young for every region. Lists (kReals, kInts) hold three values, for x, y, z.
+/// region rock and -block_young for every region. Lists (kReals, kInts) hold three values, for x, y, z;
+/// tensors six, for xx, yy, zz, xy, yz, xz.
 struct OptionSpec {
   const char *name;  ///< without the dash
   OptionType type;
@@ -65,6 +66,9 @@ class Options {
   /// Different names, each made of letters, digits, '_', '-' and '.'.
   PetscErrorCode Names(const OptionKey &key, std::vector<std::string> *value, bool *set = nullptr);
 
+  /// From now on -stage_<name>_<option> stands before -<option>, the last of these stages first. Names add up over stages.
+  void SetStages(const std::vector<std::string> &names) { stages_ = names; }
+
   /// Tells which names a family has (regions for block, declared names for boundary, ...): an option that names another
   /// one is an error that lists them. Families of regions share their names.
   void Declare(const std::string &family, const std::vector<std::string> &names);
@@ -79,6 +83,7 @@ class Options {
 
  private:
   struct Given;
+  PetscErrorCode Find(const std::string &name, bool *set, const char **value, std::string *spelled);
   PetscErrorCode Raw(const OptionKey &key, std::vector<OptionType> types, bool asked, Given *given);
   PetscErrorCode Count(const Given &given, int n, std::vector<std::string> *words);
   PetscErrorCode Choice(const Given &given, const std::string &word);
@@ -88,6 +93,7 @@ class Options {
 
   MPI_Comm comm_;
   std::map<std::string, std::vector<std::string>> declared_;  // names by noun (region, boundary, ...)
+  std::vector<std::string> stages_;                           // whose overrides are in force, in order
 };
 
 /// Whether the whole word is a finite number, which it then gives.

@@ -32,6 +32,13 @@ struct Observed {
   double broken = 0, springs = 0;
   double v_max2 = 0, u_max2 = 0;  ///< largest |v|^2, |u|^2
   double broken_elements = 0;
+
+  /// Unbalanced force ratio: mean out of balance over mean before summation; 0/0 is in balance.
+  double Unbalanced() const {
+    const double residual = residual_count > 0 ? residual_sum / residual_count : 0;
+    const double force = force_count > 0 ? force_sum / force_count : 0;
+    return force > 0 ? residual / force : (residual > 0 ? 1 : 0);
+  }
 };
 
 class Backend {
@@ -59,11 +66,11 @@ class Backend {
 PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, std::unique_ptr<Backend> *backend);
 
 /// At u(n), from host copies: v(n) [n_owned][3], and the element and spring results. Used by every backend for frames,
-/// and by the host one for its observations.
+/// and by the host one for its observations. residual, where wanted: forces out of balance [n_owned][3] N.
 PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const double *u, const double *v,
                              const Histories &history, const StepArgs &next, const double *schedule,
                              ElementResults *elements, SpringResults *springs, std::vector<double> *v_now,
-                             Observed *observed);
+                             Observed *observed, std::vector<double> *residual = nullptr);
 
 #ifdef CDEM_HAVE_CUDA
 /// True when this machine has a usable GPU.

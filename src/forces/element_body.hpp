@@ -135,7 +135,12 @@ CDEM_HD void ElementStep(const T x[][3], T u[][3], const T beta_rate[][3], const
   } else if constexpr (Law::kJudgesMean) {
     // intact elements are elastic; their mean stress decides, and what is broken is computed again by its law
     ElementSums<T> elastic;
-    ElementForce<Form, Elastic, true>(x, u, param, f, &elastic);
+    if constexpr (Law::kCarriesOffset) {
+      elastic = ElementSums<T>{};
+      Form::Forces(x, u, PointOf<ElasticFrom<Law::kState>, true, T>{param, &elastic, history}, f);
+    } else {
+      ElementForce<Form, Elastic, true>(x, u, param, f, &elastic);
+    }
     T mean[6];
     CDEM_UNROLL for (int i = 0; i < 6; ++i) mean[i] = elastic.stress[i] / elastic.volume;
     MaskOf<T> tension, shear;

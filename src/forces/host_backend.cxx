@@ -14,6 +14,7 @@ static NodeView HostView(const Tables &t, double *u, double *v, const double *sc
   n.u = u;
   n.v = v;
   n.inverse_mass = t.inverse_mass.data();
+  n.weight = t.weight.empty() ? nullptr : t.weight.data();
   n.n_tables = t.n_tables;
   n.n_watch = t.n_watch;
   n.schedule = schedule;
@@ -34,7 +35,7 @@ static NodeView HostView(const Tables &t, double *u, double *v, const double *sc
 PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const double *u, const double *v,
                              const Histories &history, const StepArgs &next, const double *schedule,
                              ElementResults *elements, SpringResults *springs, std::vector<double> *v_now,
-                             Observed *observed) {
+                             Observed *observed, std::vector<double> *residual) {
   PetscFunctionBeginUser;
   std::vector<double> f(3 * static_cast<std::size_t>(tables.n_local), 0.0), damped;
   HostElementsObserve(tables, n_owned_cells, u, v, 0, history.elements, f.data(), elements);
@@ -48,13 +49,16 @@ PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const doub
   }
   const double *f_damped = damped.empty() ? f.data() : damped.data();
   const NodeView view = HostView(tables, const_cast<double *>(u), const_cast<double *>(v), schedule, nullptr);
-  if (v_now) v_now->resize(3 * static_cast<std::size_t>(tables.n_owned));
+  for (std::vector<double> *result : {v_now, residual})
+    if (result) result->resize(3 * static_cast<std::size_t>(tables.n_owned));
+  const auto observe = tables.damped ? (tables.records.n > 0 ? ObserveNode<true, true> : ObserveNode<false, true>)
+                                     : (tables.records.n > 0 ? ObserveNode<true, false> : ObserveNode<false, false>);
   Observed sum;
   for (int i = 0; i < tables.n_owned; ++i) {
     double now[3];
     const double *fi = &f[3 * static_cast<std::size_t>(i)], *fd = f_damped + 3 * static_cast<std::size_t>(i);
-    const NodeSums s = tables.records.n > 0 ? ObserveNode<true>(view, next, i, tables.mass[i], fi, fd, now)
-                                            : ObserveNode<false>(view, next, i, tables.mass[i], fi, fd, now);
+    const NodeSums s = observe(view, next, i, tables.mass[i], fi, fd, now);
+    if (residual) std::copy_n(s.force, 3, &(*residual)[3 * static_cast<std::size_t>(i)]);
     if (v_now) std::copy_n(now, 3, &(*v_now)[3 * static_cast<std::size_t>(i)]);
     sum.kinetic += s.kinetic;
     sum.form += s.form;
@@ -81,14 +85,16 @@ class HostBackend final : public Backend {
  public:
   HostBackend(const Tables &tables, int n_owned_cells)
       : t_(tables), n_owned_cells_(n_owned_cells), u_(3 * static_cast<std::size_t>(tables.n_local), 0.0), v_(u_),
-        f_(u_), history_{StartElements(tables), StartSprings(tables)} {}
+        f_(u_),
+        last_(tables.combined ? 3 * static_cast<std::size_t>(tables.n_owned) : 0), history_{StartElements(tables),
+                                                                                            StartSprings(tables)} {}
 
   std::string Name() const override {
     const char *set = kLanes == 8 ? "AVX-512" : kLanes == 4 ? "AVX" : "SSE2";
     return "cpu, " + std::to_string(kLanes) + " lanes (" + set + ")";
   }
   std::size_t Bytes() const override {
-    std::size_t bytes = 8 * (3 * u_.size() + t_.x.size() + 2 * t_.mass.size());
+    std::size_t bytes = 8 * (3 * u_.size() + last_.size() + t_.weight.size() + t_.x.size() + 2 * t_.mass.size());
     for (const ElementTable &e : t_.elements) bytes += 4 * (e.node.size() + e.material.size());
     for (const SpringTable &s : t_.springs) bytes += static_cast<std::size_t>(s.n_pad) * (4 * 3 + 8 * 6);
     for (const SpringHistory &h : history_.springs) bytes += h.state.size() + 8 * h.values.size();
@@ -113,7 +119,8 @@ class HostBackend final : public Backend {
   PetscErrorCode Advance(const Batch &batch, Failure *failure) override {
     PetscFunctionBeginUser;
     *failure = Failure();
-    const NodeView view = HostView(t_, u_.data(), v_.data(), batch.schedule, batch.history);
+    NodeView view = HostView(t_, u_.data(), v_.data(), batch.schedule, batch.history);
+    if (t_.combined) view.last = last_.data();
     for (int step = 0; step < batch.n; ++step) {
       if (!t_.halo && failure->step >= 0) break;  // several ranks go on together, and tell at the end
       PetscCall(Timed(events.halo, &halo_, [&] { return Halo(); }));
@@ -131,7 +138,10 @@ class HostBackend final : public Backend {
         }));
       PetscCall(Timed(events.nodes, &nodes_, [&] {
         const StepArgs &args = step == 0 ? batch.first : batch.rest;
-        const int bad = t_.records.n > 0 ? Nodes<true>(view, args, step) : Nodes<false>(view, args, step);
+        const int bad =
+            t_.damped
+                ? (t_.records.n > 0 ? Nodes<true, true>(view, args, step) : Nodes<false, true>(view, args, step))
+                : (t_.records.n > 0 ? Nodes<true, false>(view, args, step) : Nodes<false, false>(view, args, step));
         if (bad >= 0 && failure->step < 0) *failure = Failure{step, bad};
         return PETSC_SUCCESS;
       }));
@@ -185,11 +195,11 @@ class HostBackend final : public Backend {
     }
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  template <bool kRecords>
+  template <bool kRecords, bool kDamped>
   int Nodes(const NodeView &view, const StepArgs &args, int step) {
     int bad = -1;
     for (int i = 0; i < t_.n_owned; ++i)
-      if (!NodeStep<kRecords>(view, args, i, step, &f_[3 * static_cast<std::size_t>(i)]) && bad < 0) bad = i;
+      if (!NodeStep<kRecords, kDamped>(view, args, i, step, &f_[3 * static_cast<std::size_t>(i)]) && bad < 0) bad = i;
     return bad;
   }
   PetscErrorCode Halo() {
@@ -218,7 +228,7 @@ class HostBackend final : public Backend {
 
   const Tables &t_;
   int n_owned_cells_;
-  std::vector<double> u_, v_, f_;
+  std::vector<double> u_, v_, f_, last_;
   Histories history_;
   std::vector<std::uint8_t> released_;     // of cells, where breaking elements release their interfaces
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed

@@ -13,11 +13,12 @@ namespace cdem {
 struct StepArgs {
   double dt = 0, keep = 1, kick = 0;  ///< dt; (1 - alpha h/2)/(1 + alpha h/2); h/(1 + alpha h/2)
   double gravity[3] = {0, 0, 0};
+  double local = 0;    ///< share of the force that opposes the motion (local damping)
   bool start = false;  ///< v holds v(0), not a half-step velocity
 
   bool operator==(const StepArgs &o) const {
     return dt == o.dt && keep == o.keep && kick == o.kick && start == o.start && gravity[0] == o.gravity[0] &&
-           gravity[1] == o.gravity[1] && gravity[2] == o.gravity[2];
+           gravity[1] == o.gravity[1] && gravity[2] == o.gravity[2] && local == o.local;
   }
 };
 
@@ -31,7 +32,9 @@ struct NodeView {
   int n_owned = 0;
   double *u = nullptr, *v = nullptr;     ///< [n_local][3]
   const double *inverse_mass = nullptr;  ///< [n_owned]
-  const int *record = nullptr;           ///< NULL without records
+  const double *weight = nullptr;        ///< [n_owned] share of gravity, where masses are scaled; else NULL
+  double *last = nullptr;       ///< [n_owned][3] acceleration of the step before, in combined damping; else NULL
+  const int *record = nullptr;  ///< NULL without records
   const std::uint8_t *kind = nullptr;
   const double *value = nullptr;
   const int *table = nullptr;
@@ -44,7 +47,7 @@ struct NodeView {
 };
 
 /// Acceleration of a node [m/s^2] from its internal force, loads at t_n and gravity.
-template <bool kRecords>
+template <bool kRecords, bool kDamped>
 CDEM_HD void Acceleration(const NodeView &n, const StepArgs &s, int i, int row, const double *now,
                           const double f_int[3], double a[3]) {
   double f[3] = {-f_int[0], -f_int[1], -f_int[2]};
@@ -52,7 +55,28 @@ CDEM_HD void Acceleration(const NodeView &n, const StepArgs &s, int i, int row, 
     for (int l = n.load_start[row]; l < n.load_start[row + 1]; ++l)
       for (int k = 0; k < 3; ++k) f[k] += n.load[3 * l + k] * now[3 * n.load_table[l]];
   const double inverse_mass = n.inverse_mass[i];
-  CDEM_UNROLL for (int k = 0; k < 3; ++k) a[k] = f[k] * inverse_mass + s.gravity[k];
+  if (kDamped && n.weight) {
+    CDEM_UNROLL for (int k = 0; k < 3; ++k) a[k] = f[k] * inverse_mass + s.gravity[k] * n.weight[i];
+  } else {
+    CDEM_UNROLL for (int k = 0; k < 3; ++k) a[k] = f[k] * inverse_mass + s.gravity[k];
+  }
+}
+
+CDEM_HD double Sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
+/// Local damping: a share of the force against the velocity (Cundall 1987). Combined: half of it against the velocity,
+/// half against the change of the force, so that a steady motion is not held up (Itasca's manuals). [in,out] a: m/s^2.
+CDEM_HD void Resist(const NodeView &n, const StepArgs &s, int i, const double v[3], bool commit, double a[3]) {
+  for (int k = 0; k < 3; ++k) {
+    const double size = a[k] < 0 ? -a[k] : a[k];
+    double against = Sign(v[k]);
+    if (n.last) {
+      double *last = n.last + 3 * static_cast<long long>(i) + k;
+      against = 0.5 * (against - Sign(a[k] - *last));
+      if (commit) *last = a[k];
+    }
+    a[k] -= s.local * size * against;
+  }
 }
 
 /// Velocity that a prescribed component has at half step, given what the table says.
@@ -60,19 +84,21 @@ CDEM_HD double PrescribedVelocity(int kind, double value, const double *table, d
   return kind == kVelocity ? value * table[1] : (value * table[2] - u) / dt;
 }
 
-/// One central-difference step of node i. [in] step: row of schedule and history. Returns false when the velocity is
+/// One central-difference step of node i; kDamped: with local damping or scaled masses. [in] step: row of schedule and
+/// history. Returns false when the velocity is
 /// not a finite number of reasonable size.
-template <bool kRecords>
+template <bool kRecords, bool kDamped = false>
 CDEM_HD bool NodeStep(const NodeView &n, const StepArgs &s, int i, int step, const double f_int[3]) {
   const int row = kRecords ? n.record[i] : -1;
   const double *now = kRecords ? n.schedule + 3 * static_cast<long long>(step) * n.n_tables : nullptr;
   double a[3], u[3], v_old[3], v[3];
-  Acceleration<kRecords>(n, s, i, row, now, f_int, a);
+  Acceleration<kRecords, kDamped>(n, s, i, row, now, f_int, a);
   CDEM_UNROLL for (int k = 0; k < 3; ++k) {
     u[k] = n.u[3 * static_cast<long long>(i) + k];
     v_old[k] = n.v[3 * static_cast<long long>(i) + k];
-    v[k] = s.keep * v_old[k] + s.kick * a[k];
   }
+  if (kDamped) Resist(n, s, i, v_old, true, a);
+  CDEM_UNROLL for (int k = 0; k < 3; ++k) v[k] = s.keep * v_old[k] + s.kick * a[k];
   if (kRecords && row >= 0) {
     for (int k = 0; k < 3; ++k) {
       const int kind = (n.kind[row] >> (2 * k)) & 3;

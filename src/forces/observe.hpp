@@ -7,16 +7,18 @@ namespace cdem {
 /// A node's share of the sums of an observation.
 struct NodeSums {
   double kinetic, form, momentum[3], residual, free, v2, u2;
+  double force[3];  ///< out of balance [N]; 0 where prescribed
 };
 
 /// [in] f_int: internal force at u(n), without damping; f_damped: the same with beta K v. [out] v_now: v(n).
-template <bool kRecords>
+template <bool kRecords, bool kDamped = false>
 CDEM_HD NodeSums ObserveNode(const NodeView &n, const StepArgs &s, int i, double mass, const double f_int[3],
                              const double f_damped[3], double v_now[3]) {
   const int row = kRecords ? n.record[i] : -1;
   double a[3], a_static[3];
-  Acceleration<kRecords>(n, s, i, row, n.schedule, f_damped, a);
-  Acceleration<kRecords>(n, s, i, row, n.schedule, f_int, a_static);
+  Acceleration<kRecords, kDamped>(n, s, i, row, n.schedule, f_damped, a);
+  Acceleration<kRecords, kDamped>(n, s, i, row, n.schedule, f_int, a_static);
+  if (kDamped) Resist(n, s, i, n.v + 3 * static_cast<long long>(i), false, a);
   NodeSums sums = {};
   for (int k = 0; k < 3; ++k) {
     const double u = n.u[3 * static_cast<long long>(i) + k], before = n.v[3 * static_cast<long long>(i) + k];
@@ -39,7 +41,7 @@ CDEM_HD NodeSums ObserveNode(const NodeView &n, const StepArgs &s, int i, double
     sums.v2 += now * now;
     sums.u2 += u * u;
     if (kind == kFree) {
-      const double residual = mass * a_static[k];
+      const double residual = sums.force[k] = mass * a_static[k];
       sums.residual += residual < 0 ? -residual : residual;
       sums.free += 1;
     }

@@ -16,7 +16,7 @@ bool HasOwnParams(const Material &material) {
   BlockLaws::Visit(material.law, [&](auto law) { sized = decltype(law)::kNeedsSize; });
   if (!sized) return false;
   double other[kMaxParams] = {};  // a law may need the size only with some of its options
-  DeriveBlock(material.law, material.property, 2, other);
+  DeriveBlock(material, material.property, 2, other);
   return !std::equal(other, other + kMaxParams, material.param);
 }
 
@@ -50,7 +50,7 @@ void CellParams(const Mesh &mesh, const std::vector<Material> &materials, PetscI
   const double volume = Volume(mesh, cell);
   CellProperties(mesh, m, cell, volume, property);
   std::fill_n(param, kMaxParams, 0.0);
-  DeriveBlock(m.law, property, std::cbrt(volume), param);
+  DeriveBlock(m, property, std::cbrt(volume), param);
 }
 
 void StartBlockParams(const std::vector<Material> &materials, Tables *tables) {
@@ -119,11 +119,7 @@ void FaceParams(const Mesh &mesh, const Joint &joint, const Face &face, double *
   double property[kMaxProperties];
   FaceProperties(mesh, joint, face, property);
   std::fill_n(param, kMaxParams, 0.0);
-  DeriveJoint(joint.law, property, param);
-  JointLaws::Visit(joint.law, [&](auto law) {
-    using Law = decltype(law);
-    if constexpr (Law::kMayKeepTension) param[Law::kKeepTension] = joint.param[Law::kKeepTension];
-  });
+  DeriveJoint(joint, property, param);
 }
 
 void ScatterStiffness(const Mesh &mesh, const Joint &joint, const Face &face, double *kn, double *ks) {

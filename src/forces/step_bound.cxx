@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace cdem {
@@ -62,9 +63,9 @@ std::uint64_t Hash(const Canonical &c, int corners) {
   return h;
 }
 
-/// Upper bounds of lambda_max(K_e, M_e) of kLanes elements; returns the largest.
+/// Upper bounds of lambda_max(K_e, M_e) of kLanes elements [out, if wanted]; returns the largest.
 template <class Form>
-double LanesBound(const Canonical *batch) {
+double LanesBound(const Canonical *batch, double *each = nullptr) {
   constexpr int corners = Form::kCorners, n = 3 * corners;
   Lanes x[corners][3], param[kMaxParams], scale[corners], u[corners][3] = {}, f[corners][3];
   for (int p = 0; p < kMaxParams; ++p) param[p] = Lanes{};
@@ -103,7 +104,9 @@ double LanesBound(const Canonical *batch) {
     double sum = 0;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) sum += a[i][j][l] * a[i][j][l];
-    largest = std::max(largest, trace[l] * std::pow(sum, 1.0 / 32));
+    const double one = trace[l] * std::pow(sum, 1.0 / 32);
+    if (each) each[l] = one * kRoundingMargin;
+    largest = std::max(largest, one);
   }
   return largest * kRoundingMargin;
 }
@@ -132,6 +135,26 @@ double TableBound(const Tables &tables, const ElementTable &t, const std::vector
   return largest;
 }
 
+/// The bound of every element of a table [1/s^2]; congruent ones are looked at once.
+template <class Form>
+std::vector<double> EachBound(const Tables &tables, const ElementTable &t, const std::vector<Material> &materials) {
+  std::unordered_map<std::uint64_t, int> classes;
+  std::vector<int> of_element(t.n);
+  std::vector<Canonical> kind;
+  for (int e = 0; e < t.n; ++e) {
+    Canonical c;
+    MakeCanonical(tables, t, materials, e, &c);
+    const auto [at, fresh] = classes.emplace(Hash(c, t.corners), static_cast<int>(kind.size()));
+    if (fresh) kind.push_back(c);
+    of_element[e] = at->second;
+  }
+  std::vector<double> bound(Padded(static_cast<int>(kind.size()))), each(t.n);
+  kind.resize(bound.size(), kind.back());
+  for (std::size_t i = 0; i < bound.size(); i += kLanes) LanesBound<Form>(&kind[i], &bound[i]);
+  for (int e = 0; e < t.n; ++e) each[e] = bound[of_element[e]];
+  return each;
+}
+
 /// lambda_max of a symmetric 3x3 matrix from above: ||A^256||_F^(1/256), at most 0.3 % too large.
 double LargestEigenvalue(const std::array<double, 6> &s) {
   const double trace = s[kXX] + s[kYY] + s[kZZ];
@@ -156,8 +179,8 @@ double LargestEigenvalue(const std::array<double, 6> &s) {
   return std::exp(log_scale) * (1 + 1e-12);
 }
 
-double SpringBound(const Tables &tables) {
-  if (tables.springs.empty()) return 0;
+/// S_a of every owned node [N/m].
+std::vector<std::array<double, 6>> SpringStiffness(const Tables &tables) {
   std::vector<std::array<double, 6>> sum(tables.n_owned, std::array<double, 6>{});
   for (const SpringTable &t : tables.springs)
     for (int i = 0; i < t.n; ++i) {
@@ -170,6 +193,12 @@ double SpringBound(const Tables &tables) {
         if (node < tables.n_owned)
           for (int k = 0; k < 6; ++k) sum[node][k] += s[k];
     }
+  return sum;
+}
+
+double SpringBound(const Tables &tables) {
+  if (tables.springs.empty()) return 0;
+  const std::vector<std::array<double, 6>> sum = SpringStiffness(tables);
   double largest = 0;
   for (int i = 0; i < tables.n_owned; ++i) {
     const double trace = sum[i][kXX] + sum[i][kYY] + sum[i][kZZ];
@@ -194,6 +223,34 @@ PetscErrorCode ComputeStepBound(const Tables &tables, const std::vector<Material
   bound->dt = CriticalStep(w2[0] + w2[1], tables.beta);
   PetscCall(PetscLogEventEnd(events.bound, nullptr, nullptr, nullptr, nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void ScaleMasses(const std::vector<Material> &materials, double w2, Tables *tables) {
+  std::vector<double> scaled(tables->n_owned, 0.0);
+  for (const ElementTable &t : tables->elements)
+    VisitElement(t.shape, t.form, [&](auto form) {
+      const std::vector<double> each = EachBound<decltype(form)>(*tables, t, materials);
+      for (int e = 0; e < t.n; ++e) {
+        double x[kMaxCorners][3], volume[kMaxCorners];
+        for (int a = 0; a < t.corners; ++a)
+          std::copy_n(&tables->x[3 * static_cast<std::size_t>(t.Node(a, e))], 3, x[a]);
+        CornerVolumes(t.shape, x, volume);
+        for (int a = 0; a < t.corners; ++a)
+          if (t.Node(a, e) < tables->n_owned)
+            scaled[t.Node(a, e)] += each[e] / w2 * materials[t.region[e]].density * volume[a];
+      }
+    });
+  if (!tables->springs.empty()) {
+    const std::vector<std::array<double, 6>> sum = SpringStiffness(*tables);
+    for (int i = 0; i < tables->n_owned; ++i) scaled[i] += 2 * LargestEigenvalue(sum[i]) / w2;
+  }
+  tables->weight.assign(tables->n_owned, 0.0);
+  for (int i = 0; i < tables->n_owned; ++i) {
+    if (tables->mass[i] == 0) continue;
+    tables->weight[i] = tables->mass[i] / scaled[i];
+    tables->mass[i] = scaled[i];
+    tables->inverse_mass[i] = 1 / scaled[i];
+  }
 }
 
 }  // namespace cdem

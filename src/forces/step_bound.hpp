@@ -14,6 +14,11 @@ struct StepBound {
 /// lambda_max is taken from above as ||A^16||_F^(1/16) of the mass-scaled matrix.
 PetscErrorCode ComputeStepBound(const Tables &tables, const std::vector<Material> &materials, StepBound *bound);
 
+/// Gives every node the mass at which the bound above is w2 [1/s^2] in its own elements and springs, so that all of a body
+/// runs at one step, and keeps its true share of it as weight: for runs whose inertia does not matter. Every element gives
+/// lambda_max(K_e, M_e)/w2 times its mass, every spring what holds it, so that K <= w2 M.
+void ScaleMasses(const std::vector<Material> &materials, double w2, Tables *tables);
+
 /// Critical step of the largest frequency w [1/s] with beta damping [s]: (2/w)(sqrt(1 + x^2) - x), x = beta w/2.
 double CriticalStep(double w2, double beta);
 

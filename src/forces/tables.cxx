@@ -26,9 +26,10 @@ PetscInt FaceNode(const Mesh &mesh, const Nodes &nodes, const Face &face, int j,
 namespace {
 
 /// Cells with a complete node list, in ascending global number.
-std::vector<PetscInt> ActiveCells(const Mesh &mesh, const Nodes &nodes) {
+std::vector<PetscInt> ActiveCells(const Mesh &mesh, const Nodes &nodes, const std::vector<char> &removed) {
   std::vector<PetscInt> cells;
   for (PetscInt c : SortedByGlobal(mesh)) {
+    if (IsRemoved(mesh, removed, c)) continue;
     const PetscInt *n = nodes.Corners(c);
     const int corners = Info(mesh.cell_shape[c]).corners;
     const bool complete = std::all_of(n, n + corners, [](PetscInt i) { return i >= 0; });
@@ -38,8 +39,9 @@ std::vector<PetscInt> ActiveCells(const Mesh &mesh, const Nodes &nodes) {
   return cells;
 }
 
-void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials, Tables *tables) {
-  const std::vector<PetscInt> active = ActiveCells(mesh, nodes);
+void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials,
+                   const std::vector<char> &removed, Tables *tables) {
+  const std::vector<PetscInt> active = ActiveCells(mesh, nodes, removed);
   // one table for each shape, form and law that this rank has
   std::map<std::array<int, 3>, std::vector<int>> groups;
   for (PetscInt c : active) {
@@ -78,9 +80,11 @@ void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Mater
   }
 }
 
-/// Row-sum masses, summed in ascending global number of the cells.
-PetscErrorCode BuildMass(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials, Tables *tables) {
+/// Row-sum masses, summed in ascending global number of the cells. Nodes whose elements have all been removed have none.
+PetscErrorCode BuildMass(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials, bool removals,
+                         Tables *tables) {
   PetscFunctionBeginUser;
+  std::vector<char> alive(nodes.n_owned, !removals);
   tables->mass.assign(nodes.n_owned, 0.0);
   for (const ElementTable &t : tables->elements)
     for (int e = 0; e < t.n; ++e) {
@@ -89,11 +93,14 @@ PetscErrorCode BuildMass(const Mesh &mesh, const Nodes &nodes, const std::vector
       CornerVolumes(t.shape, x, volume);
       for (int a = 0; a < t.corners; ++a) {
         const int node = t.node[static_cast<std::size_t>(a) * t.n_pad + e];
-        if (node < nodes.n_owned) tables->mass[node] += materials[t.region[e]].density * volume[a];
+        if (node >= nodes.n_owned) continue;
+        tables->mass[node] += materials[t.region[e]].density * volume[a];
+        alive[node] = 1;
       }
     }
-  tables->inverse_mass.resize(nodes.n_owned);
+  tables->inverse_mass.assign(nodes.n_owned, 0.0);
   for (PetscInt i = 0; i < nodes.n_owned; ++i) {
+    if (!alive[i]) continue;
     const double *x = mesh.X(nodes.vertex[i]);
     CdemCheck(tables->mass[i] > 0, PETSC_COMM_SELF,
               "the node at (%g, %g, %g) has mass %g kg: its elements are degenerate", x[0], x[1], x[2],
@@ -125,7 +132,8 @@ int AddFaceRow(const Mesh &mesh, const Joint &joint, const Face &face, Tables *t
 }
 
 void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
-                  const std::vector<Material> &materials, const std::vector<Joint> &joints, Tables *tables) {
+                  const std::vector<Material> &materials, const std::vector<Joint> &joints,
+                  const std::vector<char> &removed, Tables *tables) {
   for (int law = 0; law < JointLaws::kCount; ++law) {
     SpringTable t;
     t.law = law;
@@ -133,6 +141,7 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
       const Face &face = mesh.faces[f];
       if (face_interface[f] < 0 || face.cell[1] < 0 || joints[face_interface[f]].law != law) continue;
+      if (IsRemoved(mesh, removed, face.cell[0]) || IsRemoved(mesh, removed, face.cell[1])) continue;
       const int size = Info(mesh.cell_shape[face.cell[0]]).face_size[face.local[0]];
       const Joint &joint = joints[face_interface[f]];
       double x[4][3], area[4][3], kn = 0, ks = 0;
@@ -201,7 +210,8 @@ double CentreDistance(const Mesh &mesh, const Face &face) {
 }
 
 PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
-                           const std::vector<Material> &materials, const std::vector<Joint> &joints, Tables *tables) {
+                           const std::vector<Material> &materials, const std::vector<Joint> &joints,
+                           const std::vector<char> &removed, Tables *tables) {
   PetscFunctionBeginUser;
   CdemCheck(nodes.n_local < std::numeric_limits<int>::max() / 3, PETSC_COMM_SELF,
             "a rank has %lld nodes: more than it can count; use more ranks", static_cast<long long>(nodes.n_local));
@@ -214,13 +224,13 @@ PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vect
   PetscCall(CheckOwnParams(mesh, materials));
   StartBlockParams(materials, tables);
   for (const Joint &j : joints) tables->joint_param.insert(tables->joint_param.end(), j.param, j.param + kMaxParams);
-  BuildElements(mesh, nodes, materials, tables);
+  BuildElements(mesh, nodes, materials, removed, tables);
   PetscCall(BuildAveraging(mesh, materials, tables));
-  PetscCall(BuildMass(mesh, nodes, materials, tables));
+  PetscCall(BuildMass(mesh, nodes, materials, !removed.empty(), tables));
   for (const Material &m : materials) tables->releases = tables->releases || m.releases;
   tables->n_cells = static_cast<int>(mesh.cell_global.size());
   tables->cells = mesh.cell_sf;
-  BuildSprings(mesh, nodes, face_interface, materials, joints, tables);
+  BuildSprings(mesh, nodes, face_interface, materials, joints, removed, tables);
   CdemCheck(tables->n_slots < static_cast<std::size_t>(std::numeric_limits<int>::max()), PETSC_COMM_SELF,
             "a rank has %zu element corners and springs: more than it can count; use more ranks", tables->n_slots);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -92,14 +92,24 @@ struct Tables {
   int n_watch = 0;                ///< slots of the history buffer on this rank
   int n_tables = 1;               ///< time tables; table 0 is the constant 1
   double gravity[3] = {0, 0, 0};  ///< m/s^2
-  double alpha = 0, beta = 0;     ///< Rayleigh damping [1/s, s]
+  double beta = 0;                ///< Rayleigh damping by stiffness [s]
+  bool damped = false;            ///< nodes have local damping or scaled masses
+  bool combined = false;          ///< the damping is FLAC's combined one, which remembers accelerations
+  std::vector<double> weight;     ///< [n_owned] true mass over that of the step; empty unless masses are scaled
   std::size_t n_slots = 0;        ///< corner and spring force slots of all tables
 };
 
 /// Builds element and spring tables and nodal masses (collective).
 /// Errors: more nodes or corners on a rank than a 32-bit count holds; a node without mass.
+/// [in] removed: regions that are not there any more, one flag each; empty: none. Nodes of theirs alone have no mass.
 PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
-                           const std::vector<Material> &materials, const std::vector<Joint> &joints, Tables *tables);
+                           const std::vector<Material> &materials, const std::vector<Joint> &joints,
+                           const std::vector<char> &removed, Tables *tables);
+
+/// Whether a cell has left with its region. [in] removed: one flag a region; empty: none.
+inline bool IsRemoved(const Mesh &mesh, const std::vector<char> &removed, PetscInt cell) {
+  return !removed.empty() && removed[mesh.cell_region[cell]];
+}
 
 /// Distance of the centres of the two cells of an inner face [m].
 double CentreDistance(const Mesh &mesh, const Face &face);

@@ -26,8 +26,10 @@ PetscErrorCode FieldOutput::Create(MPI_Comm comm, Options &options) {
 bool FieldOutput::Wants(const char *field) const { return wanted_.empty() || Mesh::Find(wanted_, field) >= 0; }
 
 PetscErrorCode FieldOutput::Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
-                                 const std::vector<int> &face_interface) {
+                                 const std::vector<int> &face_interface, bool plastic, bool broken) {
   PetscFunctionBeginUser;
+  with_plastic_ = plastic;
+  with_broken_ = broken;
   mesh_ = &mesh;
   nodes_ = &nodes;
   tables_ = &tables;
@@ -52,7 +54,6 @@ PetscErrorCode FieldOutput::Open(const std::string &dir, const Mesh &mesh, const
     vtk.cell_start.push_back(static_cast<int>(vtk.cell_points.size()));
     region_.push_back(mesh.cell_region[c]);
   }
-  PetscCall(FindElementFields(tables, &with_plastic_, &with_broken_));
   PetscCall(blocks_.Create(comm_, dir, "fields", vtk));
   PetscCall(OpenInterfaces(dir, face_interface));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -13,9 +13,9 @@ class FieldOutput {
  public:
   /// Reads -output_fields (collective).
   PetscErrorCode Create(MPI_Comm comm, Options &options);
-  /// Writes the mesh files into a folder that exists.
+  /// Writes the mesh files into a folder that exists. [in] plastic, broken: some stage has such fields.
   PetscErrorCode Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
-                      const std::vector<int> &face_interface);
+                      const std::vector<int> &face_interface, bool plastic, bool broken);
   /// One frame from host copies at u(n) and the histories of the step before. [in] v_now: [n_owned][3]; stress: [owned
   /// cells][6]; springs: with each force.
   PetscErrorCode Write(PetscInt step, double time, const double *u, const std::vector<double> &v_now,

@@ -20,7 +20,17 @@ PetscErrorCode HistoryRecorder::Open(MPI_Comm comm, const std::string &dir, cons
   if (Empty()) PetscFunctionReturn(PETSC_SUCCESS);
   std::vector<std::string> names;
   for (const History &h : histories_) names.push_back(h.name);
+  origin_.assign(histories_.size(), 0.0);
   PetscCall(file_.Open(comm_, dir, names));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode HistoryRecorder::SetOrigin(const double *u) {
+  PetscFunctionBeginUser;
+  for (std::size_t i = 0; i < histories_.size(); ++i) {
+    const History &h = histories_[i];
+    if (h.slot >= 0 && h.component < 3) origin_[i] = u[3 * static_cast<std::size_t>(h.node) + h.component];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -49,8 +59,10 @@ PetscErrorCode HistoryRecorder::Record(PetscInt first, const std::vector<double>
     if (step % interval_ != 0) continue;
     steps.push_back(step);
     due_times.push_back(times[j]);
-    for (const History &h : histories_)
-      values.push_back(h.slot < 0 ? 0.0 : buffer[6 * (j * n_watch + h.slot) + h.component]);
+    for (std::size_t i = 0; i < histories_.size(); ++i) {
+      const History &h = histories_[i];
+      values.push_back(h.slot < 0 ? 0.0 : buffer[6 * (j * n_watch + h.slot) + h.component] - origin_[i]);
+    }
   }
   PetscCall(Write(steps, due_times, values));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -59,9 +71,10 @@ PetscErrorCode HistoryRecorder::Record(PetscInt first, const std::vector<double>
 PetscErrorCode HistoryRecorder::RecordLast(PetscInt step, double time, const double *u, const double *v_now) {
   PetscFunctionBeginUser;
   std::vector<double> values;
-  for (const History &h : histories_) {
+  for (std::size_t i = 0; i < histories_.size(); ++i) {
+    const History &h = histories_[i];
     const std::size_t at = 3 * static_cast<std::size_t>(std::max(h.node, 0)) + h.component % 3;
-    values.push_back(h.slot < 0 ? 0.0 : (h.component < 3 ? u[at] : v_now[at]));
+    values.push_back(h.slot < 0 ? 0.0 : (h.component < 3 ? u[at] - origin_[i] : v_now[at]));
   }
   PetscCall(Write({step}, {time}, values));
   PetscFunctionReturn(PETSC_SUCCESS);

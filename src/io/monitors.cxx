@@ -31,11 +31,8 @@ PetscErrorCode PrintEnergy(PetscViewer viewer, const Sight &s) {
 PetscErrorCode PrintConvergence(PetscViewer viewer, const Sight &s) {
   PetscFunctionBeginUser;
   const Observed &o = s.observed;
-  const double residual = o.residual_count > 0 ? o.residual_sum / o.residual_count : 0;
-  const double force = o.force_count > 0 ? o.force_sum / o.force_count : 0;
-  const double unbalanced = force > 0 ? residual / force : (residual > 0 ? 1 : 0);  // 0/0 is in balance
   PetscCall(PetscViewerASCIIPrintf(viewer, "%lld %.17g %.17g %.17g %lld", static_cast<long long>(s.step), s.time,
-                                   o.kinetic, unbalanced, static_cast<long long>(o.broken)));
+                                   o.kinetic, o.Unbalanced(), static_cast<long long>(o.broken)));
   if (s.breakable > 0) PetscCall(PetscViewerASCIIPrintf(viewer, " %.17g", o.broken_elements / s.breakable));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);

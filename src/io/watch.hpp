@@ -67,6 +67,8 @@ class HistoryRecorder {
   /// Begins histories.csv in a folder that exists; the histories know their slots by now.
   PetscErrorCode Open(MPI_Comm comm, const std::string &dir, const std::vector<History> &histories);
   bool Empty() const { return histories_.empty(); }
+  /// Displacements count from these of the owned nodes [n_owned][3] from now on.
+  PetscErrorCode SetOrigin(const double *u);
   /// Rows of a batch that began with step first, at these times; buffer [n][n_watch][6] holds the slots of this rank.
   PetscErrorCode Record(PetscInt first, const std::vector<double> &times, const double *buffer, int n_watch);
   /// The row of the last state, from u and v(n) of the owned nodes. Collective.
@@ -79,6 +81,7 @@ class HistoryRecorder {
   PetscMPIInt rank_ = 0;
   PetscInt interval_ = 1;
   std::vector<History> histories_;
+  std::vector<double> origin_;  // per history; 0 where another rank owns the node
   HistoryFile file_;
 };
 

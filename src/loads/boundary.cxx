@@ -120,15 +120,16 @@ void Prescribe(const Boundary &b, Row &row) {
     if (b.kind[k] != kFree) row.kind[k] = b.kind[k], row.value[k] = b.value[k], row.table[k] = b.table;
 }
 
-/// Adds the integral of N_j t dA of one face to its nodes; pressure pushes against the outward normal.
-void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Face &face,
+/// Adds the integral of N_j t dA of one face to its nodes on a side; pressure pushes against the outward normal.
+void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Face &face, int side,
               std::map<PetscInt, Row> &rows) {
+  const double outward = side == 0 ? 1 : -1;  // the face's own normal points out of cell[0]
   double x[4][3];
   const int size = FaceCorners(mesh, face, x);
   FacePoint points[4];
   const int n = FacePoints(size, x, points);
   for (int j = 0; j < size; ++j) {
-    const PetscInt node = FaceNode(mesh, nodes, face, j, 0);
+    const PetscInt node = FaceNode(mesh, nodes, face, j, side);
     if (node < 0 || node >= nodes.n_owned) continue;
     std::array<double, 3> &load = rows[node].load[b.table];
     for (int g = 0; g < n; ++g) {
@@ -137,17 +138,27 @@ void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Fac
       const double area = std::sqrt(Dot(points[g].area, points[g].area));
       const double along = 1 + b.traction_gradient_z * z, p = b.pressure + b.pressure_gradient_z * z;
       for (int k = 0; k < 3; ++k)
-        load[k] += points[g].shape[j] * (b.traction[k] * along * area - p * points[g].area[k]);
+        load[k] += points[g].shape[j] * (b.traction[k] * along * area - p * outward * points[g].area[k]);
     }
   }
 }
 
+/// The one side of a face that is still there, or -1: both are, or none.
+int OuterSide(const Mesh &mesh, const std::vector<char> &removed, const Face &face) {
+  const bool first = !IsRemoved(mesh, removed, face.cell[0]);
+  const bool second = face.cell[1] >= 0 && !IsRemoved(mesh, removed, face.cell[1]);
+  return first == second ? -1 : first ? 0 : 1;
+}
+
 /// A load has one side to act on: it must lie on the outer boundary.
-PetscErrorCode CheckLoadedSurface(const Mesh &mesh, const Boundary &b) {
+PetscErrorCode CheckLoadedSurface(const Mesh &mesh, const Boundary &b, const std::vector<char> &removed) {
   PetscFunctionBeginUser;
   PetscInt inner = 0;
   if (b.loaded)
-    for (PetscInt f : mesh.surface_faces[b.surface]) inner += mesh.faces[f].cell[1] >= 0;
+    for (PetscInt f : mesh.surface_faces[b.surface]) {
+      const Face &face = mesh.faces[f];
+      inner += face.cell[1] >= 0 && !IsRemoved(mesh, removed, face.cell[0]) && !IsRemoved(mesh, removed, face.cell[1]);
+    }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &inner, 1, MPIU_INT, MPI_SUM, mesh.comm));
   CdemCheck(
       inner == 0, mesh.comm,
@@ -175,7 +186,7 @@ PetscErrorCode ReadBoundaries(const Mesh &mesh, Options &options, const std::vec
 }
 
 PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vector<Boundary> &boundaries,
-                            std::vector<History> &histories, Tables *tables) {
+                            const std::vector<char> &removed, std::vector<History> &histories, Tables *tables) {
   PetscFunctionBeginUser;
   PetscMPIInt rank;
   PetscCallMPI(MPI_Comm_rank(mesh.comm, &rank));
@@ -188,7 +199,7 @@ PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vec
         if (member[nodes.vertex[i]]) Prescribe(b, rows[i]);
       continue;
     }
-    PetscCall(CheckLoadedSurface(mesh, b));
+    PetscCall(CheckLoadedSurface(mesh, b, removed));
     for (PetscInt f : mesh.surface_faces[b.surface]) {
       const Face &face = mesh.faces[f];
       const int size = Info(mesh.cell_shape[face.cell[0]]).face_size[face.local[0]];
@@ -197,9 +208,16 @@ PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vec
           const PetscInt node = FaceNode(mesh, nodes, face, j, side);
           if (node >= 0 && node < nodes.n_owned) Prescribe(b, rows[node]);
         }
-      if (b.loaded) LoadFace(mesh, nodes, b, face, rows);
+      const int outer = OuterSide(mesh, removed, face);
+      if (b.loaded && outer >= 0) LoadFace(mesh, nodes, b, face, outer, rows);
     }
   }
+  if (!removed.empty())
+    for (PetscInt i = 0; i < nodes.n_owned; ++i)
+      if (tables->mass[i] == 0) {
+        rows[i] = Row();
+        std::fill_n(rows[i].kind, 3, kVelocity);  // stays where it is
+      }
   for (History &h : histories) {
     if (h.rank != rank) continue;
     Row &row = rows[h.node];

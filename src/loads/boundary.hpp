@@ -42,7 +42,9 @@ PetscErrorCode ReadHistories(const Mesh &mesh, const Nodes &nodes, Options &opti
 
 /// Turns boundaries and histories into rows of records (none when there is nothing). Where two boundaries prescribe one
 /// component the later one has it; loads add. Fixed components of v (initial velocities) are left to the first step.
+/// [in] removed: as for BuildTables, which comes before; nodes without mass are held. A load lies on the outer boundary
+/// as it is by then.
 PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vector<Boundary> &boundaries,
-                            std::vector<History> &histories, Tables *tables);
+                            const std::vector<char> &removed, std::vector<History> &histories, Tables *tables);
 
 }  // namespace cdem

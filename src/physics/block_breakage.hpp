@@ -36,6 +36,8 @@ struct Breakage : BlockLawDefaults {
     param[kResidualStrength] = 2 * property[5] * std::cos(residual);
   }
 
+  static void MakeIntact(double *param) { param[kStrength] = param[kTension] = kUnreached; }
+
   /// Lanes in which a mean stress breaks the element. A stress that is zero (hydrostatic) breaks nothing in tension (in
   /// shear), whatever the strength: a body without strength rests intact.
   template <class T>
@@ -56,6 +58,11 @@ struct Breakage : BlockLawDefaults {
     const MohrCoulombSurface<T> m = {param[kResidualSin], T{}, param[kResidualStrength], T{}};
     return MohrCoulombStress(m, param, strain, state, stress);
   }
+};
+
+/// Breaking blocks that carry an offset: intact ones too are measured from it.
+struct BreakageOffset : Breakage {
+  static constexpr bool kCarriesOffset = true;
 };
 
 }  // namespace cdem

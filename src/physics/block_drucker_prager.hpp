@@ -11,6 +11,7 @@ struct DruckerPrager : BlockLawDefaults {
   static constexpr int kState = 7;  ///< plastic strain (true shears), plastic shear strain
   static constexpr int kPlasticShear = 6;
   static constexpr bool kNeedsSize = true;
+  static constexpr bool kCarriesOffset = true;
   enum Cone { kOuter, kMiddle, kInscribed };
   /// Slope of the cone, of the flow [-], shear strength at I1 = 0 and cut-off [Pa]; what they lose down to the residual
   /// strength; and one over the plastic shear strain at which they have lost it.
@@ -102,6 +103,8 @@ struct DruckerPrager : BlockLawDefaults {
     param[kLossTension] = peak.tension - left.tension;
     param[kRate] = size * (peak.k - left.k) / (2 * property[kGf]);
   }
+
+  static void MakeIntact(double *param) { param[kK] = param[kTension] = kUnreached; }
 
   /// Stress [Pa] of a strain (true shears) at one Gauss point; the mask of the lanes whose state changed. The strength is
   /// that of the plastic shear strain before.

@@ -1,5 +1,6 @@
 // Linear elastic blocks (Eq. 1 of the method's paper): sigma = lambda tr(eps) 1 + 2 mu eps.
 #pragma once
+#include "core/lanes.hpp"
 #include "physics/law.hpp"
 
 namespace cdem {
@@ -32,6 +33,29 @@ struct Elastic : BlockLawDefaults {
     stress[kYZ] = two_mu * strain[kYZ];
     stress[kXZ] = two_mu * strain[kXZ];
   }
+};
+
+/// The elastic part of a law that carries an offset: the stress of what its strain is more than the first six numbers of
+/// its history.
+template <int kNumbers>
+struct ElasticFrom : BlockLawDefaults {
+  static constexpr int kState = kNumbers;
+  template <class T>
+  static CDEM_HD MaskOf<T> Stress(const T *param, const T strain[6], T state[kState], T stress[6]) {
+    T e[6];
+    CDEM_UNROLL for (int i = 0; i < 6; ++i) e[i] = strain[i] - state[i];
+    Elastic::Stress(param, e, stress);
+    return T{} < T{};
+  }
+};
+
+/// Elastic blocks that carry an offset.
+struct ElasticOffset : ElasticFrom<6> {
+  static constexpr const char *kName = Elastic::kName;
+  static constexpr bool kCarriesOffset = true;
+  static constexpr int kParams = Elastic::kParams;
+  static constexpr auto kProperties = Elastic::kProperties;
+  static void Derive(const double *property, double size, double *param) { Elastic::Derive(property, size, param); }
 };
 
 }  // namespace cdem

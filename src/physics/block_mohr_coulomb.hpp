@@ -9,6 +9,7 @@ struct MohrCoulomb : BlockLawDefaults {
   static constexpr const char *kName = "mohr_coulomb";
   static constexpr int kState = 7;  ///< plastic strain (true shears), plastic shear strain
   static constexpr int kPlasticShear = 6;
+  static constexpr bool kCarriesOffset = true;
   enum { kLambda, kMu, kSinPhi, kSinPsi, kStrength, kTension, kParams };  ///< Pa; strength: 2 c cos(phi)
 
   static constexpr std::array<Property, 6> kProperties = {{Elastic::kProperties[0], Elastic::kProperties[1],
@@ -25,6 +26,8 @@ struct MohrCoulomb : BlockLawDefaults {
     param[kStrength] = 2 * property[2] * std::cos(property[3] * kDegree);
     param[kTension] = TensionWithin(property[5], MohrCoulombApex(property[2], property[3]));
   }
+
+  static void MakeIntact(double *param) { param[kStrength] = param[kTension] = kUnreached; }
 
   /// Stress [Pa] of a strain (true shears) at one Gauss point; the mask of the lanes whose state changed.
   template <class T>

@@ -32,6 +32,8 @@ struct SpringBlock : BlockLawDefaults {
     param[kTanResidual] = std::isinf(property[5]) ? param[kTanPhi] : std::tan(property[5] * degree);
   }
 
+  static void MakeIntact(double *param) { param[kTension] = param[kCohesion] = kUnreached; }
+
   /// Stress [Pa] of a strain (true shears) at a corner. [in] area: vectors along the normals of its three faces, of any
   /// length. [in,out] state: its broken faces. Returns whether another one broke.
   template <class T>

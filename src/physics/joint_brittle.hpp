@@ -13,6 +13,7 @@ struct BrittleLaw : StrengthLawDefaults {
   enum { kTanPsi = kPlainParams, kDilationSlip, kDilatingParams };  ///< -, m
   static constexpr int kParams = kDilates ? kDilatingParams : kPlainParams;
   static constexpr bool kMayKeepTension = true;
+  static constexpr bool kCarriesOffset = kDilates;
 
   /// History: slip s [3], zero while intact; with dilation the opening g that it made, and the length of its path [m].
   enum { kSlip = 0, kGap = 3, kPath = 4 };

@@ -11,8 +11,8 @@ namespace cdem {
 template <bool kDilates>
 struct SofteningLaw : StrengthLawDefaults {
   static constexpr const char *kName = "softening";
-  enum { kOpeningEnd = kStrengthParams, kSlipEnd, kPlainParams };   ///< delta_f and s_f [m]
-  enum { kTanPsi = kPlainParams, kDilationSlip, kDilatingParams };  ///< -, m
+  enum { kOpeningEnd = kStrengthParams, kSlipEnd, kFrozen, kPlainParams };  ///< delta_f and s_f [m]; 1: no more damage
+  enum { kTanPsi = kPlainParams, kDilationSlip, kDilatingParams };          ///< -, m
   static constexpr int kParams = kDilates ? kDilatingParams : kPlainParams;
 
   /// History: slip s [3], damage D, length of the slip's path; with dilation the opening g that it made [m].
@@ -34,6 +34,7 @@ struct SofteningLaw : StrengthLawDefaults {
     DeriveStrength(property, param);
     param[kOpeningEnd] = 2 * property[kGI] / param[kTension];
     param[kSlipEnd] = 2 * property[kGII] / param[kCohesion];
+    param[kFrozen] = 0;
     if (kDilates) DeriveDilation(property, &param[kTanPsi], &param[kDilationSlip]);
   }
 
@@ -69,6 +70,13 @@ struct SofteningLaw : StrengthLawDefaults {
     if constexpr (kDilates) opening = opening - s.history[kGap];
     T shear2 = Dot(force, force) - along * along;
     return 0.5 * (shear2 / s.ks - along * opening);
+  }
+
+  static constexpr bool kCarriesOffset = kDilates;
+  /// The tensile strength shapes the unloading of damaged springs: it stays, and their damage does.
+  static void MakeIntact(double *param) {
+    param[kFrozen] = 1;
+    param[kCohesion] = kUnreached;
   }
 
   template <class T>
@@ -108,7 +116,7 @@ struct SofteningLaw : StrengthLawDefaults {
       n.first = n.tension / s.kn;
       n.range = s.param[kOpeningEnd] - n.first;
       T now = Smaller((n.opening - n.first) / n.range, one);
-      n.grows = n.pulled & (now > n.damage);
+      n.grows = n.pulled & (now > n.damage) & !(s.param[kFrozen] > zero);
       n.damage = n.grows ? now : n.damage;
       n.Carry(s.kn);
     }

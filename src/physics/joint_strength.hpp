@@ -33,6 +33,7 @@ struct StrengthLawDefaults : JointLawDefaults {
     tension = c / tan_phi;
     return "tension cut to cohesion / tan(friction) = " + std::to_string(tension) + " Pa";
   }
+  static void MakeIntact(double *param) { param[kTension] = param[kCohesion] = kUnreached; }
   static void DeriveStrength(const double *property, double *param) {
     param[kTension] = property[kStrengthTension];
     param[kCohesion] = property[kStrengthCohesion];

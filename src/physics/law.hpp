@@ -33,6 +33,9 @@ struct Property {
   }
 };
 
+/// Strength that nothing reaches, small enough for its square to be a number [Pa].
+inline constexpr double kUnreached = 1e100;
+
 inline constexpr int kMaxParams = 16;  ///< doubles a law may keep per row of parameters
 
 /// What a block law is unless it says otherwise. Every block law has lambda and mu as its first two parameters, derived
@@ -45,6 +48,11 @@ struct BlockLawDefaults {
       false;  ///< for forms whose points are corners: given vectors along their faces' normals
   static constexpr int kPlasticShear = -1;   ///< which number of the history is the plastic shear strain; -1: none
   static constexpr bool kNeedsSize = false;  ///< parameters depend on the size of the element
+  /// The first six numbers of the history are a strain that makes no stress: plastic strain, and with it what a body
+  /// under stress from the start, or of another stiffness before, has to be measured from.
+  static constexpr bool kCarriesOffset = false;
+  /// Changes parameters so that nothing fails any more; what has failed stays as it is.
+  static void MakeIntact(double *) {}
   /// What is wrong with a combination of properties, or an empty string.
   static std::string Check(const double *) { return {}; }
   /// What Derive changed in the properties, for the header of the run, or an empty string.
@@ -64,6 +72,11 @@ struct JointLawDefaults {
   static constexpr bool kHistory = true;          ///< has a state byte a spring
   static constexpr int kState = 0;                ///< doubles of history a spring; all zero at the start
   static constexpr bool kMayKeepTension = false;  ///< asks for keep_tension, its parameter kKeepTension
+  /// The history holds a slip kSlip [3] and an opening kGap [m] that make no force: references of a spring that was under
+  /// force from the start, or of another stiffness before.
+  static constexpr bool kCarriesOffset = false;
+  /// As for block laws.
+  static void MakeIntact(double *) {}
   static bool Serves(const double *) { return true; }
   /// What is wrong with a combination of properties, or an empty string.
   static std::string Check(const double *) { return {}; }
@@ -105,6 +118,14 @@ struct LawList {
     int found = -1, i = 0;
     ((found = found < 0 && name == Laws::kName && Laws::Serves(property) ? i : found, ++i), ...);
     return found < 0 ? law : found;
+  }
+  /// The law of the same name that carries an offset; -1: none does.
+  static int Carrier(int law) {
+    std::string name;
+    Visit(law, [&](auto l) { name = decltype(l)::kName; });
+    int found = -1, i = 0;
+    ((found = found < 0 && name == Laws::kName && Laws::kCarriesOffset ? i : found, ++i), ...);
+    return found;
   }
   static std::string Names() {
     std::string all;

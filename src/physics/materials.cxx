@@ -4,18 +4,67 @@
 #include "core/option_names.hpp"
 #include "core/options.hpp"
 #include "physics/laws.hpp"
+#include "physics/strength.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace cdem {
 
-void DeriveBlock(int law, const double *property, double size, double *param) {
-  BlockLaws::Visit(law, [&](auto l) { decltype(l)::Derive(property, size, param); });
+void DeriveBlock(const Material &material, const double *property, double size, double *param) {
+  BlockLaws::Visit(material.law, [&](auto law) {
+    decltype(law)::Derive(property, size, param);
+    if (material.intact) decltype(law)::MakeIntact(param);
+  });
 }
 
-void DeriveJoint(int law, const double *property, double *param) {
-  JointLaws::Visit(law, [&](auto l) { decltype(l)::Derive(property, param); });
+void DeriveJoint(const Joint &joint, const double *property, double *param) {
+  JointLaws::Visit(joint.law, [&](auto law) {
+    using Law = decltype(law);
+    Law::Derive(property, param);
+    if (joint.intact) Law::MakeIntact(param);
+    if constexpr (Law::kMayKeepTension) param[Law::kKeepTension] = joint.keeps_tension;
+  });
+}
+
+PetscErrorCode CarryOffset(MPI_Comm comm, const std::string &region, Material *material) {
+  PetscFunctionBeginUser;
+  const int law = BlockLaws::Carrier(material->law);
+  CdemCheck(
+      law >= 0, comm,
+      "region '%s': blocks of discrete springs are measured from no stress: they cannot have -block_<region>_stress, "
+      "nor change their law or stiffness in a stage",
+      region.c_str());
+  CdemCheck(
+      material->element != "onepoint" || !material->restiffened, comm,
+      "region '%s': the form onepoint cannot change its stiffness in a stage (its hourglass forces would jump); use "
+      "full or bbar",
+      region.c_str());
+  material->law = law;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void CarryOffset(Joint *joint) {
+  joint->law = JointLaws::Carrier(joint->law);
+  std::fill_n(joint->param, kMaxParams, 0.0);
+  DeriveJoint(*joint, joint->property, joint->param);
+}
+
+/// Divides strengths, and the tangents of angles of friction; dilation stays, but not above the friction.
+template <class Law>
+static void DivideStrength(double factor, double *property) {
+  if (factor == 1) return;
+  double friction = kPropertyInf;
+  for (std::size_t i = 0; i < Law::kProperties.size(); ++i) {
+    const std::string key = Law::kProperties[i].key;
+    if (key == "cohesion" || key == "tension" || key == "residual_cohesion" || key == "residual_tension")
+      property[i] /= factor;
+    if ((key == "friction" || key == "residual_friction") && std::isfinite(property[i]))
+      property[i] = std::atan(std::tan(property[i] * kDegree) / factor) / kDegree;
+    if (key == "friction") friction = property[i];
+  }
+  for (std::size_t i = 0; i < Law::kProperties.size(); ++i)
+    if (std::string(Law::kProperties[i].key) == "dilation") property[i] = std::min(property[i], friction);
 }
 
 /// Reads one property of a law and checks its range.
@@ -109,7 +158,17 @@ static PetscErrorCode ReadForm(Options &options, const std::string &region, Mate
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions,
+/// Stress from the start, and its gradient.
+static PetscErrorCode ReadStress(Options &options, const std::string &region, Material *material) {
+  PetscFunctionBeginUser;
+  bool gradient;
+  PetscCall(options.Reals({"block", region, "stress"}, 6, material->stress, &material->stressed));
+  PetscCall(options.Reals({"block", region, "stress_gradient_z"}, 6, material->gradient, &gradient));
+  material->stressed = material->stressed || gradient;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions, const StrengthChange &change,
                              std::vector<Material> *materials, std::vector<std::string> *remarks) {
   PetscFunctionBeginUser;
   options.Declare("block", regions);
@@ -123,11 +182,14 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
     std::string remark;
     BlockLaws::Visit(material.law, [&](auto law) {
       ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.property);
+      DivideStrength<decltype(law)>(change.factor, material.property);
       remark = decltype(law)::Remark(material.property);
     });
     PetscCall(ierr);
     if (remarks && !remark.empty()) remarks->push_back("region " + regions[r] + ": " + remark);
-    DeriveBlock(material.law, material.property, 1, material.param);
+    material.intact = change.intact;
+    DeriveBlock(material, material.property, 1, material.param);
+    PetscCall(ReadStress(options, regions[r], &material));
     BlockLaws::Visit(material.law, [&](auto law) {
       ierr = ReadScatters(options, "block", regions[r], decltype(law)::kProperties, &material.scatter);
     });
@@ -152,22 +214,20 @@ static PetscErrorCode FinishJoint(Options &options, const std::string &name, Joi
   PetscFunctionBeginUser;
   const std::string adjusted = Law::Adjust(joint->property);
   if (!adjusted.empty()) remarks->push_back("interface " + name + ": " + adjusted);
-  Law::Derive(joint->property, joint->param);
   if constexpr (Law::kHistory) {
     std::string initial = "intact";
     PetscCall(options.Word({"interface", name, "initial"}, &initial));
     joint->broken = initial == "broken";
   }
   if constexpr (Law::kMayKeepTension) {
-    bool keep = false;
-    PetscCall(options.Flag({"interface", name, "keep_tension"}, &keep));
-    joint->param[Law::kKeepTension] = keep;
+    PetscCall(options.Flag({"interface", name, "keep_tension"}, &joint->keeps_tension));
   }
+  DeriveJoint(*joint, joint->property, joint->param);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &names, std::vector<Joint> *joints,
-                          std::vector<std::string> *remarks) {
+PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &names, const StrengthChange &change,
+                          std::vector<Joint> *joints, std::vector<std::string> *remarks) {
   PetscFunctionBeginUser;
   joints->assign(names.size(), Joint());
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -183,9 +243,12 @@ PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &name
                 Options::Spelled({"interface", name, key}).c_str(), *value);
     }
     PetscErrorCode ierr = PETSC_SUCCESS;
-    JointLaws::Visit(joint.law,
-                     [&](auto law) { ierr = ReadLaw<decltype(law)>(options, "interface", name, joint.property); });
+    JointLaws::Visit(joint.law, [&](auto law) {
+      ierr = ReadLaw<decltype(law)>(options, "interface", name, joint.property);
+      DivideStrength<decltype(law)>(change.factor, joint.property);
+    });
     PetscCall(ierr);
+    joint.intact = change.intact;
     joint.law = JointLaws::Choose(joint.law, joint.property);
     JointLaws::Visit(joint.law, [&](auto law) { ierr = FinishJoint<decltype(law)>(options, name, &joint, remarks); });
     PetscCall(ierr);

@@ -116,4 +116,10 @@ PetscErrorCode TSCentralGetLastStep(TS ts, PetscReal *dt) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode TSCentralSetLastStep(TS ts, PetscReal dt) {
+  PetscFunctionBegin;
+  static_cast<Central *>(ts->data)->dt_old = dt;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 }  // namespace cdem

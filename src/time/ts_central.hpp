@@ -30,5 +30,7 @@ PetscErrorCode RegisterTSCentral();
 PetscErrorCode CreateTSCentral(MPI_Comm comm, Stepper *stepper, PetscInt batch, Vec u, Vec v, TS *ts);
 /// dt of the last step taken (0 before the first).
 PetscErrorCode TSCentralGetLastStep(TS ts, PetscReal *dt);
+/// Says that v holds velocities half a step of dt before u; 0: velocities at the time of u.
+PetscErrorCode TSCentralSetLastStep(TS ts, PetscReal dt);
 
 }  // namespace cdem

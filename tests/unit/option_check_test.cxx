@@ -17,7 +17,7 @@ TEST_F(OptionCheckTest, UnknownOnesAreNamedWithTheNearest) {
        {"-log_veiw", "did you mean -log_view?"},
        {"-dm_refin 1", "did you mean -dm_refine?"},
        {"-boundries a", "did you mean -boundaries?"},
-       {"-stages a", "nearest known: -"},
+       {"-phases a", "nearest known: -"},
        {"-interface_f_stifness_factor 1", "-interface_f_stiffness_factor?"}}};
   options_.Declare("block", {"rock"});
   options_.Declare("interface", {"f"});
@@ -31,8 +31,8 @@ TEST_F(OptionCheckTest, UnknownOnesAreNamedWithTheNearest) {
 }
 
 TEST_F(OptionCheckTest, UnknownFamiliesAreErrors) {
-  for (const char *name : {"-stage_a_solve", "-flow", "-relax_ratio", "-checkpoint_interval", "-restart",
-                           "-damping_local", "-boundary_quiet", "-precision"}) {
+  for (const char *name :
+       {"-stage_a_solve", "-flow", "-checkpoint_interval", "-restart", "-boundary_quiet", "-precision"}) {
     ASSERT_EQ(PetscOptionsSetValue(nullptr, name, "1"), PETSC_SUCCESS);
     ExpectLeftRefused({(std::string("unknown option ") + name).c_str()});
     ASSERT_EQ(PetscOptionsClearValue(nullptr, name), PETSC_SUCCESS);

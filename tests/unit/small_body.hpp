@@ -46,7 +46,7 @@ struct Body {
   }
   void Build() {
     ASSERT_PETSC(CreateNodes(mesh, face_interface, &nodes));
-    ASSERT_PETSC(BuildTables(mesh, nodes, face_interface, materials, joints, &tables));
+    ASSERT_PETSC(BuildTables(mesh, nodes, face_interface, materials, joints, {}, &tables));
   }
   void Centre(PetscInt cell, double centre[3]) const {
     const int corners = Info(mesh.cell_shape[cell]).corners;

@@ -1,0 +1,175 @@
+// The part of Simulation that belongs to a stage: its tables, its step, its TS, and the way to the next one.
+#include "core/error.hpp"
+#include "core/events.hpp"
+#include "forces/references.hpp"
+#include "simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+
+PetscErrorCode Simulation::BuildStage() {
+  PetscFunctionBeginUser;
+  const Scene &scene = Now();
+  const bool removals = std::any_of(scene.removed.begin(), scene.removed.end(), [](char gone) { return gone != 0; });
+  const std::vector<char> removed = removals ? scene.removed : std::vector<char>();
+  PetscCall(PetscLogEventBegin(events.tables, nullptr, nullptr, nullptr, nullptr));
+  tables_ = Tables();
+  PetscCall(CheckForms(mesh_, scene.materials, &remarks_));
+  PetscCall(BuildTables(mesh_, nodes_, face_interface_, scene.materials, scene.joints, removed, &tables_));
+  PetscCall(CheckJoints(mesh_, interface_names_, scene.materials, scene.joints, tables_, &remarks_));
+  tables_.n_tables = static_cast<int>(scene.tables.size());
+  tables_.beta = scene.beta;
+  std::copy_n(scene.gravity, 3, tables_.gravity);
+  alpha_ = scene.alpha;
+  local_ = scene.local;
+  const RelaxDamping damping = scene.relaxation.damping;
+  if (scene.relax && local_ == 0 && (damping == RelaxDamping::kLocal || damping == RelaxDamping::kCombined))
+    local_ = 0.8;
+  tables_.damped = local_ > 0 || (scene.relax && scene.relaxation.scaling);
+  tables_.combined = scene.relax && damping == RelaxDamping::kCombined;
+  PetscCall(BuildRecords(mesh_, nodes_, scene.boundaries, removed, histories_, &tables_));
+  PetscCall(CountStage());
+  bool plastic, broken;
+  PetscCall(FindElementFields(tables_, &plastic, &broken));
+  with_plastic_ = with_plastic_ || plastic;
+  with_broken_ = with_broken_ || broken;
+  PetscCall(PetscLogEventEnd(events.tables, nullptr, nullptr, nullptr, nullptr));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::CountStage() {
+  PetscFunctionBeginUser;
+  std::int64_t counts[kShapes + 3] = {};
+  for (const ElementTable &t : tables_.elements) {
+    const auto own = std::count_if(t.cell.begin(), t.cell.end(), [&](int c) { return c < mesh_.n_owned; });
+    counts[static_cast<int>(t.shape)] += own;
+    if (t.breaks) counts[kShapes + 2] += own;
+  }
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
+    counts[kShapes] += face_interface_[f] >= 0 && mesh_.faces[f].cell[0] < mesh_.n_owned;
+  for (const SpringTable &t : tables_.springs)
+    counts[kShapes + 1] += std::count(t.counted.begin(), t.counted.end(), std::uint8_t{1});
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, kShapes + 3, MPI_INT64_T, MPI_SUM, comm_));
+  std::copy_n(counts, kShapes, n_cells_);
+  n_interface_faces_ = counts[kShapes];
+  n_springs_ = counts[kShapes + 1];
+  n_breakable_ = counts[kShapes + 2];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::ChooseStep() {
+  PetscFunctionBeginUser;
+  const Scene &scene = Now();
+  const bool scaled = scene.relax && scene.relaxation.scaling;
+  dt_ = scene.dt;
+  bound_known_ = scaled || !(scene.dt_given && scene.check == "off");
+  if (bound_known_) PetscCall(ComputeStepBound(tables_, scene.materials, &bound_));
+  // A force that opposes the motion decelerates by up to 1 + local of it: as a body that much stiffer.
+  if (local_ > 0) bound_.dt = CriticalStep((1 + local_) * (bound_.element_w2 + bound_.spring_w2), tables_.beta);
+  if (scaled) ScaleMasses(scene.materials, bound_.element_w2 + bound_.spring_w2, &tables_);
+  if (!scene.dt_given) {
+    dt_ = scene.safety * bound_.dt;
+    CdemCheck(std::isfinite(dt_), comm_, "the critical step is not finite: give -ts_dt");
+    if (scene.has_end_time && !scene.relax) dt_ = scene.end_time / std::ceil(scene.end_time / dt_);
+  } else if (bound_known_ && dt_ > bound_.dt) {
+    CdemCheck(scene.check != "error", comm_,
+              "-ts_dt %g is above the critical step %g s. That number is a rigorous bound, up to 1.6 times below the "
+              "exact limit (more where tetrahedra are flat): a larger step may still be stable. Use a smaller -ts_dt "
+              "(or none), or go on with -ts_central_check warn",
+              dt_, bound_.dt);
+    remarks_.push_back("-ts_dt is above the bound of the critical step, " + std::to_string(dt_ / bound_.dt) +
+                       " times: the run may be unstable");
+  }
+  last_step_ = PETSC_INT_MAX;
+  if (!scene.relax && scene.has_end_step) last_step_ = stage_step_ + scene.end_step;
+  if (!scene.relax && scene.has_end_time && scene.end_time / dt_ < static_cast<double>(last_step_ - stage_step_))
+    last_step_ = stage_step_ + static_cast<PetscInt>(std::ceil(scene.end_time / dt_ - 1e-6));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// [in] dt_old: the step that u and v come from [s]; 0: v holds velocities at the time of u.
+PetscErrorCode Simulation::CreateTS(double dt_old) {
+  PetscFunctionBeginUser;
+  const Scene &scene = Now();
+  PetscBool given;
+  PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ts_max_steps", &given));
+  if (given && scene.has_end_step)  // TS reads it too, and knows no 1e3
+    PetscCall(PetscOptionsSetValue(nullptr, "-ts_max_steps", std::to_string(scene.end_step).c_str()));
+  PetscCall(CreateTSCentral(comm_, this, batch_, u_, v_, &ts_));
+  PetscCall(TSSetTimeStep(ts_, dt_));
+  PetscCall(TSSetFromOptions(ts_));
+  PetscCall(TSMonitorSet(ts_, MonitorTS, this, nullptr));  // not one that -ts_monitor_cancel would remove
+  TSType type;
+  PetscCall(TSGetType(ts_, &type));
+  CdemCheck(std::string(type) == "central", comm_,
+            "-ts_type %s: cdem steps with central differences only; leave it out", type);
+  PetscCall(TSSetStepNumber(ts_, stage_step_));
+  PetscCall(TSSetTime(ts_, stage_time_));
+  PetscCall(TSSetTimeStep(ts_, dt_));
+  const bool timed = scene.has_end_time && !scene.relax;
+  const PetscInt steps = scene.relax ? scene.relaxation.max_steps : scene.end_step;
+  PetscCall(TSSetMaxTime(ts_, timed ? stage_time_ + scene.end_time : PETSC_MAX_REAL));
+  PetscCall(TSSetMaxSteps(ts_, steps < PETSC_INT_MAX - stage_step_ ? stage_step_ + steps : PETSC_INT_MAX));
+  PetscCall(TSCentralSetLastStep(ts_, dt_old));
+  relaxation_ = scene.relax ? std::make_unique<Relaxation>(scene.relaxation) : nullptr;
+  balanced_ = false;
+  if (relaxation_) PetscCall(TSSetApplicationContext(ts_, this));
+  if (relaxation_)
+    PetscCall(TSSetPostStep(ts_, WatchBalance));  // a monitor's word would be lost: the next step clears it
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::EndStage() {
+  PetscFunctionBeginUser;
+  double time;
+  PetscCall(TSGetTime(ts_, &time));
+  if (Now().relax) {
+    pseudo_time_ += time - stage_time_;
+    if (!balanced_) PetscCall(ReportImbalance());
+    PetscCall(StopMotion());
+  }
+  stage_summaries_.push_back(StageSummary());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::NextStage() {
+  PetscFunctionBeginUser;
+  const double begin = MPI_Wtime();
+  const double *u, *v;
+  const Histories *history;
+  double dt_old;
+  PetscCall(TSCentralGetLastStep(ts_, &dt_old));
+  PetscCall(backend_->Download(&u, &v, &history));
+  const std::size_t n = 3 * static_cast<std::size_t>(tables_.n_owned);
+  const std::vector<double> u_end(u, u + 3 * static_cast<std::size_t>(tables_.n_local)), v_end(v, v + n);
+  const Histories before = *history;
+  PetscCall(TSDestroy(&ts_));
+  PetscCall(VecDestroy(&u_));
+  PetscCall(VecDestroy(&v_));
+  PetscCall(VecDestroy(&mass_));
+  PetscCall(VecDestroy(&momentum_));
+  const Tables old = std::move(tables_);
+  backend_.reset();
+
+  ++stage_;
+  stage_time_ = time_;
+  stage_step_ = steps_;
+  PetscCall(BuildStage());
+  PetscCall(ChooseStep());
+  Histories after;
+  PetscCall(TransferHistories(mesh_, old, before, tables_, u_end.data(), &after));
+  PetscCall(CreateBackend());
+  PetscCall(backend_->Upload(u_end.data(), v_end.data(), after));
+  if (Now().reset) {
+    origin_.assign(u_end.begin(), u_end.begin() + static_cast<std::ptrdiff_t>(n));
+    PetscCall(recorder_.SetOrigin(origin_.data()));
+  }
+  PetscCall(CreateTS(dt_old));
+  PetscCall(PrintStage());
+  wall_stages_ += MPI_Wtime() - begin;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+}  // namespace cdem
