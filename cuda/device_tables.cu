@@ -59,6 +59,8 @@ PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells) {
     PetscCall(load_table_.Upload(r.load_table));
     PetscCall(load_.Upload(r.load));
     PetscCall(watch_.Upload(r.watch));
+    PetscCall(quiet_.Upload(r.quiet));
+    PetscCall(dashpot_.Upload(r.dashpot));
   }
   PetscCall(BuildSlotLists());
   PetscCall(CreateAverages());
@@ -107,7 +109,7 @@ std::size_t DeviceTables::Bytes() const {
   std::size_t bytes = 0;
   auto add = [&](const auto &...array) { ((bytes += array.bytes()), ...); };
   add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_,
-      load_start_, load_table_, watch_, kind_, value_, load_, weight_, last_, partial_, undamped_);
+      load_start_, load_table_, watch_, quiet_, kind_, value_, load_, dashpot_, weight_, last_, partial_, undamped_);
   add(averages_.start, averages_.entry, averages_.inverse_volume, averages_.dilatation, averages_.pressure,
       averages_.of_dilatation, averages_.of_pressure);
   for (const Elements &e : elements_) add(e.node, e.material, e.layer, e.counted, e.state, e.value, e.broken_time);
@@ -131,6 +133,8 @@ NodeView DeviceTables::Nodes(double *u, double *v, const double *schedule, doubl
   n.load_table = load_table_.get();
   n.load = load_.get();
   n.watch = watch_.get();
+  n.quiet = quiet_.get();  // NULL without dashpots
+  n.dashpot = dashpot_.get();
   n.n_tables = t_->n_tables;
   n.n_watch = t_->n_watch;
   n.schedule = schedule;

@@ -59,9 +59,9 @@ class DeviceTables {
   DeviceAverages averages_;
   DeviceArray<double> x_, mass_, inverse_mass_, block_param_, joint_param_, slots_;
   DeviceArray<int> list_start_, list_entry_;
-  DeviceArray<int> record_, table_, load_start_, load_table_, watch_;
+  DeviceArray<int> record_, table_, load_start_, load_table_, watch_, quiet_;
   DeviceArray<std::uint8_t> kind_;
-  DeviceArray<double> value_, load_;
+  DeviceArray<double> value_, load_, dashpot_;
   DeviceArray<double> weight_, last_;       // of damped nodes
   DeviceArray<double> partial_, undamped_;  // only once something is observed
 };

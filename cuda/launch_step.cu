@@ -58,8 +58,7 @@ PetscErrorCode DeviceTables::LaunchStep(const NodeView &nodes, const StepArgs &a
   PetscCall(Run(events.elements, launch, [&] { return LaunchElements(nodes, batch, launch); }));
   if (!springs_.empty()) PetscCall(Run(events.springs, launch, [&] { return LaunchSprings(nodes, launch); }));
   if (t_->n_owned == 0) PetscFunctionReturn(PETSC_SUCCESS);
-  auto kernel = t_->damped ? (t_->records.n > 0 ? NodeKernel<true, true> : NodeKernel<false, true>)
-                           : (t_->records.n > 0 ? NodeKernel<true, false> : NodeKernel<false, false>);
+  auto kernel = VisitNodes(*t_, [](auto has) { return NodeKernel<decltype(has)>; });
   PetscCall(Run(events.nodes, launch, [&] {
     return Launch(kernel, Blocks(t_->n_owned, kNodeBlock), kNodeBlock, launch, nodes, args, Lists(launch.overlap),
                   batch);

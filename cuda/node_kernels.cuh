@@ -43,7 +43,7 @@ __device__ __forceinline__ void SumSlots(const SlotLists &lists, const SlotHead 
   for (int at = head.at + 32 * SlotHead::kSize; at < head.end; at += 32) AddSlot(lists, lists.entry[at], f);
 }
 
-template <bool kRecords, bool kDamped>
+template <class Has>
 __global__ void __launch_bounds__(kNodeBlock)
     NodeKernel(NodeView n, StepArgs args, SlotLists lists, BatchState *batch) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
@@ -54,7 +54,7 @@ __global__ void __launch_bounds__(kNodeBlock)
   SumSlots(lists, head, f);
   const int step = batch->step;
   if (i == 0) batch->next = step + 1;
-  if (!NodeStep<kRecords, kDamped>(n, args, i, step, f))
+  if (!NodeStep<Has::kRecords, Has::kQuiet, Has::kDamped>(n, args, i, step, f))
     atomicMin(&batch->failure, static_cast<unsigned long long>(step) << 32 | static_cast<unsigned>(i));
 }
 
@@ -65,7 +65,7 @@ __global__ inline void __launch_bounds__(kBlock) SumKernel(int n_owned, SlotList
 }
 
 /// [in] f: undamped internal forces, or NULL when there is no damping: then the slots hold them.
-template <bool kRecords, bool kDamped>
+template <class Has>
 __global__ void __launch_bounds__(kBlock) NodeObserveKernel(NodeView n, StepArgs args, SlotLists lists,
                                                             const double *mass, const double *f, double *partial) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
@@ -74,7 +74,7 @@ __global__ void __launch_bounds__(kBlock) NodeObserveKernel(NodeView n, StepArgs
     double damped[3], v_now[3];
     SumSlots(lists, SlotHead(lists, i), damped);
     const double *f_int = f ? f + 3ll * i : damped;
-    const NodeSums s = ObserveNode<kRecords, kDamped>(n, args, i, mass[i], f_int, damped, v_now);
+    const NodeSums s = ObserveNode<Has::kRecords, Has::kQuiet, Has::kDamped>(n, args, i, mass[i], f_int, damped, v_now);
     value[0] = s.kinetic;
     value[1] = s.form;
     for (int k = 0; k < 3; ++k) value[2 + k] = s.momentum[k];

@@ -71,8 +71,7 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
   if (t_->beta != 0) PetscCall(LaunchPressure(launch));
   if (t_->n_owned > 0) {
     const double *f = t_->beta != 0 ? undamped_.get() : nullptr;
-    auto kernel = t_->damped ? (t_->records.n > 0 ? NodeObserveKernel<true, true> : NodeObserveKernel<false, true>)
-                             : (t_->records.n > 0 ? NodeObserveKernel<true, false> : NodeObserveKernel<false, false>);
+    auto kernel = VisitNodes(*t_, [](auto has) { return NodeObserveKernel<decltype(has)>; });
     NodeView seen = nodes;
     seen.last = nullptr;  // the host's observations know no acceleration of the step before either
     kernel<<<node_blocks, kBlock, 0, stream>>>(seen, args, Lists(), mass_.get(), f, partial_.get());

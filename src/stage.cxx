@@ -29,7 +29,7 @@ PetscErrorCode Simulation::BuildStage() {
     local_ = 0.8;
   tables_.damped = local_ > 0 || (scene.relax && scene.relaxation.scaling);
   tables_.combined = scene.relax && damping == RelaxDamping::kCombined;
-  PetscCall(BuildRecords(mesh_, nodes_, scene.boundaries, removed, histories_, &tables_));
+  PetscCall(BuildRecords(mesh_, nodes_, scene.boundaries, scene.materials, removed, histories_, &tables_));
   PetscCall(CountStage());
   bool plastic, broken;
   PetscCall(FindElementFields(tables_, &plastic, &broken));

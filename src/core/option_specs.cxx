@@ -61,11 +61,12 @@ static std::vector<OptionSpec> &Registry() {
       {"boundary_<name>_on", T::kText, "", "its name", "the surface, line or point of the mesh", ""},
       {"boundary_<name>_fix", T::kText, "", "", "components that do not move, such as `xyz` or `z`", ""},
       {"boundary_<name>_displacement", T::kReals, "m", "", "prescribed displacement, times the table", ""},
-      {"boundary_<name>_velocity", T::kReals, "m/s", "", "prescribed velocity, times the table", ""},
+      {"boundary_<name>_velocity", T::kReals, "m/s", "", "prescribed velocity, times the table; of a quiet boundary the particle velocity of the plane wave that comes in", ""},
       {"boundary_<name>_components", T::kText, "", "xyz", "components that displacement or velocity prescribes; the others stay free", ""},
       {"boundary_<name>_traction", T::kReals, "Pa", "", "force per area, times the table (surfaces)", ""},
       {"boundary_<name>_pressure", T::kReal, "Pa", "", "pressure against the outward normal, times the table (surfaces)", ""},
       {"boundary_<name>_gradient_z", T::kReal, "Pa/m", "0", "times z, added to the pressure or to the size of the traction", ""},
+      {"boundary_<name>_quiet", T::kFlag, "", "false", "dashpots that absorb the waves that reach the surface, which is held by nothing else", ""},
       {"boundary_<name>_table", T::kText, "", "", "the table that multiplies what is prescribed; without it 1 from the start", ""},
 
       {"gravity", T::kReals, "m/s^2", "0,0,0", "acceleration of gravity", ""},

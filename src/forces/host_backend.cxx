@@ -28,6 +28,10 @@ static NodeView HostView(const Tables &t, double *u, double *v, const double *sc
     n.load_table = t.records.load_table.data();
     n.load = t.records.load.data();
     n.watch = t.records.watch.data();
+    if (!t.records.quiet.empty()) {
+      n.quiet = t.records.quiet.data();
+      n.dashpot = t.records.dashpot.data();
+    }
   }
   return n;
 }
@@ -51,9 +55,8 @@ PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const doub
   const NodeView view = HostView(tables, const_cast<double *>(u), const_cast<double *>(v), schedule, nullptr);
   for (std::vector<double> *result : {v_now, residual})
     if (result) result->resize(3 * static_cast<std::size_t>(tables.n_owned));
-  const auto observe = tables.damped ? (tables.records.n > 0 ? ObserveNode<true, true> : ObserveNode<false, true>)
-                                     : (tables.records.n > 0 ? ObserveNode<true, false> : ObserveNode<false, false>);
   Observed sum;
+  const auto observe = VisitNodes(tables, [](auto has) { return &ObserveNode<has.kRecords, has.kQuiet, has.kDamped>; });
   for (int i = 0; i < tables.n_owned; ++i) {
     double now[3];
     const double *fi = &f[3 * static_cast<std::size_t>(i)], *fd = f_damped + 3 * static_cast<std::size_t>(i);
@@ -138,10 +141,7 @@ class HostBackend final : public Backend {
         }));
       PetscCall(Timed(events.nodes, &nodes_, [&] {
         const StepArgs &args = step == 0 ? batch.first : batch.rest;
-        const int bad =
-            t_.damped
-                ? (t_.records.n > 0 ? Nodes<true, true>(view, args, step) : Nodes<false, true>(view, args, step))
-                : (t_.records.n > 0 ? Nodes<true, false>(view, args, step) : Nodes<false, false>(view, args, step));
+        const int bad = VisitNodes(t_, [&](auto has) { return Nodes<decltype(has)>(view, args, step); });
         if (bad >= 0 && failure->step < 0) *failure = Failure{step, bad};
         return PETSC_SUCCESS;
       }));
@@ -195,11 +195,14 @@ class HostBackend final : public Backend {
     }
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  template <bool kRecords, bool kDamped>
+  template <class Has>
   int Nodes(const NodeView &view, const StepArgs &args, int step) {
     int bad = -1;
     for (int i = 0; i < t_.n_owned; ++i)
-      if (!NodeStep<kRecords, kDamped>(view, args, i, step, &f_[3 * static_cast<std::size_t>(i)]) && bad < 0) bad = i;
+      if (!NodeStep<Has::kRecords, Has::kQuiet, Has::kDamped>(view, args, i, step,
+                                                              &f_[3 * static_cast<std::size_t>(i)]) &&
+          bad < 0)
+        bad = i;
     return bad;
   }
   PetscErrorCode Halo() {

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/host_device.hpp"
 #include "core/lanes.hpp"
+#include "forces/quiet_node.hpp"
 #include "forces/tables.hpp"
 
 #include <cstdint>
@@ -41,6 +42,8 @@ struct NodeView {
   const int *load_start = nullptr, *load_table = nullptr;
   const double *load = nullptr;
   const int *watch = nullptr;
+  const int *quiet = nullptr;  ///< [n records] row of dashpot or -1; NULL where no node has dashpots
+  const double *dashpot = nullptr;
   int n_tables = 1, n_watch = 0;
   const double *schedule = nullptr;  ///< [step][table][3]: at t_n, t_n + dt/2, t_n + dt
   double *history = nullptr;         ///< [step][slot][6]: u(n), v(n)
@@ -84,21 +87,21 @@ CDEM_HD double PrescribedVelocity(int kind, double value, const double *table, d
   return kind == kVelocity ? value * table[1] : (value * table[2] - u) / dt;
 }
 
-/// One central-difference step of node i; kDamped: with local damping or scaled masses. [in] step: row of schedule and
-/// history. Returns false when the velocity is
-/// not a finite number of reasonable size.
-template <bool kRecords, bool kDamped = false>
+/// One central-difference step of node i; kQuiet: some of the records have dashpots; kDamped: there is local damping, or
+/// masses are scaled. [in] step: row of schedule and history. Returns false when the velocity is not a finite number of
+/// reasonable size.
+template <bool kRecords, bool kQuiet = false, bool kDamped = false>
 CDEM_HD bool NodeStep(const NodeView &n, const StepArgs &s, int i, int step, const double f_int[3]) {
   const int row = kRecords ? n.record[i] : -1;
   const double *now = kRecords ? n.schedule + 3 * static_cast<long long>(step) * n.n_tables : nullptr;
   double a[3], u[3], v_old[3], v[3];
   Acceleration<kRecords, kDamped>(n, s, i, row, now, f_int, a);
+  if (kDamped) Resist(n, s, i, n.v + 3 * static_cast<long long>(i), true, a);
   CDEM_UNROLL for (int k = 0; k < 3; ++k) {
     u[k] = n.u[3 * static_cast<long long>(i) + k];
     v_old[k] = n.v[3 * static_cast<long long>(i) + k];
+    v[k] = s.keep * v_old[k] + s.kick * a[k];
   }
-  if (kDamped) Resist(n, s, i, v_old, true, a);
-  CDEM_UNROLL for (int k = 0; k < 3; ++k) v[k] = s.keep * v_old[k] + s.kick * a[k];
   if (kRecords && row >= 0) {
     for (int k = 0; k < 3; ++k) {
       const int kind = (n.kind[row] >> (2 * k)) & 3;
@@ -108,6 +111,8 @@ CDEM_HD bool NodeStep(const NodeView &n, const StepArgs &s, int i, int step, con
       // a component that starts with its boundary has the boundary's velocity at once
       if (s.start) v_old[k] = kind == kVelocity ? n.value[3 * row + k] * now[3 * table] : v[k];
     }
+    if (kQuiet && n.quiet[row] >= 0)
+      Absorb(n.dashpot + 6 * n.quiet[row], 0.5 * s.kick * n.inverse_mass[i], n.kind[row], v_old, v);
     if (n.watch[row] >= 0) {
       double *out = n.history + 6 * (static_cast<long long>(step) * n.n_watch + n.watch[row]);
       for (int k = 0; k < 3; ++k) {

@@ -10,8 +10,23 @@ struct NodeSums {
   double force[3];  ///< out of balance [N]; 0 where prescribed
 };
 
+/// Velocity of the coming half step of a node with dashpots, as NodeStep has it. [in] a: acceleration without them.
+CDEM_HD void QuietVelocity(const NodeView &n, const StepArgs &s, int i, int row, const double a[3], double v[3]) {
+  double v_old[3];
+  for (int k = 0; k < 3; ++k) {
+    v_old[k] = n.v[3 * static_cast<long long>(i) + k];
+    v[k] = s.keep * v_old[k] + s.kick * a[k];
+    const int kind = (n.kind[row] >> (2 * k)) & 3;
+    if (kind == kFree) continue;
+    const double value = n.value[3 * row + k], *table = n.schedule + 3 * n.table[3 * row + k];
+    v[k] = PrescribedVelocity(kind, value, table, n.u[3 * static_cast<long long>(i) + k], s.dt);
+    if (s.start) v_old[k] = kind == kVelocity ? value * table[0] : v[k];
+  }
+  Absorb(n.dashpot + 6 * n.quiet[row], 0.5 * s.kick * n.inverse_mass[i], n.kind[row], v_old, v);
+}
+
 /// [in] f_int: internal force at u(n), without damping; f_damped: the same with beta K v. [out] v_now: v(n).
-template <bool kRecords, bool kDamped = false>
+template <bool kRecords, bool kQuiet = false, bool kDamped = false>
 CDEM_HD NodeSums ObserveNode(const NodeView &n, const StepArgs &s, int i, double mass, const double f_int[3],
                              const double f_damped[3], double v_now[3]) {
   const int row = kRecords ? n.record[i] : -1;
@@ -19,10 +34,14 @@ CDEM_HD NodeSums ObserveNode(const NodeView &n, const StepArgs &s, int i, double
   Acceleration<kRecords, kDamped>(n, s, i, row, n.schedule, f_damped, a);
   Acceleration<kRecords, kDamped>(n, s, i, row, n.schedule, f_int, a_static);
   if (kDamped) Resist(n, s, i, n.v + 3 * static_cast<long long>(i), false, a);
+  const bool absorbs = kQuiet && row >= 0 && n.quiet[row] >= 0;
+  double absorbed[3] = {0, 0, 0};
+  if (absorbs) QuietVelocity(n, s, i, row, a, absorbed);
   NodeSums sums = {};
   for (int k = 0; k < 3; ++k) {
     const double u = n.u[3 * static_cast<long long>(i) + k], before = n.v[3 * static_cast<long long>(i) + k];
-    double after = s.keep * before + s.kick * a[k], now = s.start ? before : 0.5 * (before + after);
+    double after = absorbs ? absorbed[k] : s.keep * before + s.kick * a[k];
+    double now = s.start ? before : 0.5 * (before + after);
     double earlier = s.start ? 2 * before - after : before;
     int kind = kFree;
     if (kRecords && row >= 0) {

@@ -68,6 +68,8 @@ struct NodeRecords {
   std::vector<int> load_table;     ///< per load
   std::vector<double> load;        ///< per load [3] N
   std::vector<int> watch;          ///< [n] slot of the history buffer, or -1
+  std::vector<int> quiet;          ///< [n] row of dashpot, or -1; empty where no node has dashpots
+  std::vector<double> dashpot;     ///< [quiet nodes][6] C of quiet boundaries [N s/m], in the order of small.hpp
 };
 
 /// Everything a backend needs, on the host.
@@ -98,6 +100,24 @@ struct Tables {
   std::vector<double> weight;     ///< [n_owned] true mass over that of the step; empty unless masses are scaled
   std::size_t n_slots = 0;        ///< corner and spring force slots of all tables
 };
+
+/// What the nodes of a scene have: their loops are made for it.
+template <bool records, bool quiet, bool damped>
+struct NodeKind {
+  static constexpr bool kRecords = records, kQuiet = quiet, kDamped = damped;
+};
+/// f(NodeKind{}) of these tables.
+template <class F>
+auto VisitNodes(const Tables &t, F &&f) {
+  const bool quiet = !t.records.quiet.empty();
+  if (t.damped)
+    return quiet             ? f(NodeKind<true, true, true>{})
+           : t.records.n > 0 ? f(NodeKind<true, false, true>{})
+                             : f(NodeKind<false, false, true>{});
+  return quiet             ? f(NodeKind<true, true, false>{})
+         : t.records.n > 0 ? f(NodeKind<true, false, false>{})
+                           : f(NodeKind<false, false, false>{});
+}
 
 /// Builds element and spring tables and nodal masses (collective).
 /// Errors: more nodes or corners on a rank than a 32-bit count holds; a node without mass.

@@ -2,6 +2,8 @@
 
 #include "core/error.hpp"
 #include "core/options.hpp"
+#include "core/small.hpp"
+#include "loads/quiet.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/interfaces.hpp"
 
@@ -47,8 +49,17 @@ PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vecto
   auto key = [&](const char *k) { return OptionKey("boundary", b->name, k); };
   PetscCall(Place(mesh, options, b));
   std::string word;
-  bool set, wanted[3], any = false;
+  bool set, wanted[3];
+  PetscCall(options.Flag(key("quiet"), &b->quiet));
+  CdemCheck(!b->quiet || b->point_set < 0, mesh.comm,
+            "boundary '%s': quiet needs a surface, and '%s' is a line or a point: its dashpots stand on faces",
+            b->name.c_str(), mesh.point_sets[b->point_set].c_str());
+  bool any = b->quiet;
   PetscCall(options.Text(key("fix"), &word, &set));
+  CdemCheck(!b->quiet || !set, mesh.comm,
+            "boundary '%s' is quiet and has %s: what is fixed cannot absorb; give one, or fix those components on a "
+            "boundary of another name",
+            b->name.c_str(), Options::Spelled(key("fix")).c_str());
   if (set) {
     PetscCall(ParseComponents(mesh.comm, key("fix"), word, wanted));
     for (int k = 0; k < 3; ++k)
@@ -63,8 +74,15 @@ PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vecto
   for (int m = 0; m < 2; ++m) PetscCall(options.Reals(key(motions[m].first), 3, value[m], &moved[m]));
   CdemCheck(!(moved[0] && moved[1]), mesh.comm, "boundary '%s' prescribes both velocity and displacement: give one",
             b->name.c_str());
+  CdemCheck(!b->quiet || !moved[1], mesh.comm,
+            "boundary '%s' is quiet and has a displacement: an incoming wave is given by its velocity",
+            b->name.c_str());
+  if (b->quiet && moved[0]) {
+    b->wave = true;
+    for (int k = 0; k < 3; ++k) b->incoming[k] = only[k] ? value[0][k] : 0;
+  }
   for (int m = 0; m < 2; ++m) {
-    if (!moved[m]) continue;
+    if (!moved[m] || b->quiet) continue;
     any = true;
     CdemCheck(b->kind[0] == kFree || b->kind[1] == kFree || b->kind[2] == kFree, mesh.comm,
               "boundary '%s' fixes all components and prescribes a %s: give one", b->name.c_str(), motions[m].first);
@@ -95,9 +113,13 @@ PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vecto
   CdemCheck(!b->loaded || b->surface >= 0, mesh.comm, "boundary '%s': traction and pressure need a surface",
             b->name.c_str());
   CdemCheck(any || b->loaded, mesh.comm,
-            "boundary '%s' is declared but does nothing: give fix, displacement, velocity, traction or pressure",
+            "boundary '%s' is declared but does nothing: give fix, displacement, velocity, traction, pressure or quiet",
             b->name.c_str());
   PetscCall(options.Text(key("table"), &word, &set));
+  CdemCheck(!set || !b->quiet || b->wave || b->loaded, mesh.comm,
+            "%s: boundary '%s' is only quiet, there is nothing that a table could multiply; give a velocity (of the "
+            "incoming wave), traction or pressure, or leave the table out",
+            Options::Spelled(key("table")).c_str(), b->name.c_str());
   if (set) {
     const auto it = std::find(table_names.begin() + 1, table_names.end(), word);
     CdemCheck(it != table_names.end(), mesh.comm, "%s: there is no table '%s'; declared with -tables: %s",
@@ -113,6 +135,8 @@ struct Row {
   int kind[3] = {kFree, kFree, kFree}, table[3] = {0, 0, 0}, watch = -1;
   double value[3] = {0, 0, 0};
   std::map<int, std::array<double, 3>> load;  // by table
+  bool quiet = false;
+  std::array<double, 6> dashpot{};
 };
 
 void Prescribe(const Boundary &b, Row &row) {
@@ -143,6 +167,24 @@ void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Fac
   }
 }
 
+/// Adds the dashpots of one face to its nodes, and the load 2 C v_in of the wave that comes in.
+void QuietFace(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials, const Boundary &b,
+               const Face &face, int side, std::map<PetscInt, Row> &rows) {
+  Dashpot dashpots[4];
+  const int n = FaceDashpots(mesh, nodes, materials, face, side, dashpots);
+  for (const Dashpot *d = dashpots; d < dashpots + n; ++d) {
+    if (d->node < 0 || d->node >= nodes.n_owned) continue;
+    Row &row = rows[d->node];
+    row.quiet = true;
+    for (int k = 0; k < 6; ++k) row.dashpot[k] += d->c[k];
+    if (!b.wave) continue;
+    double force[3];
+    Apply(d->c, b.incoming, force);
+    std::array<double, 3> &load = row.load[b.table];
+    for (int k = 0; k < 3; ++k) load[k] += 2 * force[k];
+  }
+}
+
 /// The one side of a face that is still there, or -1: both are, or none.
 int OuterSide(const Mesh &mesh, const std::vector<char> &removed, const Face &face) {
   const bool first = !IsRemoved(mesh, removed, face.cell[0]);
@@ -150,21 +192,19 @@ int OuterSide(const Mesh &mesh, const std::vector<char> &removed, const Face &fa
   return first == second ? -1 : first ? 0 : 1;
 }
 
-/// A load has one side to act on: it must lie on the outer boundary.
+/// Loads and dashpots have one side to act on: it must lie on the outer boundary.
 PetscErrorCode CheckLoadedSurface(const Mesh &mesh, const Boundary &b, const std::vector<char> &removed) {
   PetscFunctionBeginUser;
   PetscInt inner = 0;
-  if (b.loaded)
+  if (b.loaded || b.quiet)
     for (PetscInt f : mesh.surface_faces[b.surface]) {
       const Face &face = mesh.faces[f];
       inner += face.cell[1] >= 0 && !IsRemoved(mesh, removed, face.cell[0]) && !IsRemoved(mesh, removed, face.cell[1]);
     }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &inner, 1, MPIU_INT, MPI_SUM, mesh.comm));
-  CdemCheck(
-      inner == 0, mesh.comm,
-      "boundary '%s' has a traction or pressure, but its surface lies inside the body: a load needs a surface on the "
-      "outer boundary",
-      b.name.c_str());
+  CdemCheck(inner == 0, mesh.comm,
+            "boundary '%s' %s, but its surface lies inside the body: %s needs a surface on the outer boundary",
+            b.name.c_str(), b.loaded ? "has a traction or pressure" : "is quiet", b.loaded ? "a load" : "it");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -186,7 +226,8 @@ PetscErrorCode ReadBoundaries(const Mesh &mesh, Options &options, const std::vec
 }
 
 PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vector<Boundary> &boundaries,
-                            const std::vector<char> &removed, std::vector<History> &histories, Tables *tables) {
+                            const std::vector<Material> &materials, const std::vector<char> &removed,
+                            std::vector<History> &histories, Tables *tables) {
   PetscFunctionBeginUser;
   PetscMPIInt rank;
   PetscCallMPI(MPI_Comm_rank(mesh.comm, &rank));
@@ -210,6 +251,7 @@ PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vec
         }
       const int outer = OuterSide(mesh, removed, face);
       if (b.loaded && outer >= 0) LoadFace(mesh, nodes, b, face, outer, rows);
+      if (b.quiet && outer >= 0) QuietFace(mesh, nodes, materials, b, face, outer, rows);
     }
   }
   if (!removed.empty())
@@ -239,7 +281,10 @@ PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vec
     }
     r.load_start.push_back(static_cast<int>(r.load_table.size()));
     r.watch.push_back(row.watch);
+    r.quiet.push_back(row.quiet ? static_cast<int>(r.dashpot.size() / 6) : -1);
+    if (row.quiet) r.dashpot.insert(r.dashpot.end(), row.dashpot.begin(), row.dashpot.end());
   }
+  if (r.dashpot.empty()) r.quiet.clear();
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -25,7 +25,7 @@ PetscErrorCode ReadRelaxPlan(Options &options, RelaxPlan *plan);
 /// What a check sees, summed over the ranks.
 struct BalanceSums {
   double kinetic = 0;     ///< J
-  double stored = 0;        ///< J, in elements and springs
+  double stored = 0;      ///< J, in elements and springs
   double unbalanced = 0;  ///< ratio of forces
   double stiffness = 0;   ///< du . K du since the last check [J]
   double inertia = 0;     ///< du . M du [kg m^2]

@@ -164,6 +164,16 @@ OPTIONS = {
     "step negative": ({"ts_dt": -1e-4}, ["-ts_dt"]),
     "end before the start": ({"ts_max_steps": DROP, "ts_max_time": -1.0}, ["-ts_max_time", "-1"]),
     "safety above 1": ({"ts_central_safety": 1.5}, ["-ts_central_safety", "1.5"]),
+    # quiet boundaries
+    "quiet and fixed": ({"boundary_zmin_quiet": None}, ["'zmin'", "quiet", "-boundary_zmin_fix"]),
+    "quiet and moved": ({"boundary_zmin_fix": DROP, "boundary_zmin_quiet": None, "boundary_zmin_displacement": (0, 0, 1)},
+                        ["'zmin'", "quiet", "displacement", "velocity"]),
+    "quiet with a table alone": ({"boundary_zmin_fix": DROP, "boundary_zmin_quiet": None, "boundary_zmin_table": "t",
+                                  "tables": "t", "table_t_type": "sine", "table_t_frequency": 5.0},
+                                 ["-boundary_zmin_table", "'zmin'", "quiet", "multiply"]),
+    "quiet that is neither yes nor no": ({"boundary_zmin_quiet": "absorb"}, ["-boundary_zmin_quiet", "absorb"]),
+    "components of a quiet boundary without a wave": ({"boundary_zmin_fix": DROP, "boundary_zmin_quiet": None,
+                                                       "boundary_zmin_components": "z"}, ["components", "'zmin'"]),
     # known words of no use here, and parts of the language that this version lacks
     "strength for a law without": ({**JOINTS, "interface_joints_law": "elastic"}, ["-interface_joints_"]),
     "a table that nobody uses": ({"tables": "t"}, ["'t'", "-table_t_type"]),
@@ -179,7 +189,6 @@ OPTIONS = {
     "unknown reset": ({"stages": "a", "stage_a_reset": "velocity"}, ["-stage_a_reset", "velocity", "displacement"]),
     "relaxation damped away": ({"solve": "relax", "ts_max_steps": DROP, "damping_local": 1.0}, ["-damping_local", "1"]),
     "relaxation ratio zero": ({"solve": "relax", "ts_max_steps": DROP, "relax_ratio": 0.0}, ["-relax_ratio", "0"]),
-    "quiet boundary": ({"boundary_zmin_quiet": None}, ["-boundary_zmin_quiet"]),
     "no such law": ({"block_law": "drucker"}, ["drucker", "drucker_prager", "elastic"]),
     # machine
     "unknown device": ({"device": "gpu"}, ["-device", "gpu", "cuda"]),
@@ -268,6 +277,13 @@ MESHES = {
     "empty": ("", {}, ["bad.msh"]),
     "not a mesh": ("solid cube\nfacet normal 0 0 1\n", {}, ["bad.msh"]),
     "missing": (None, {}, ["bad.msh"]),
+    "quiet surface inside the body": (msh(elements=((5, 1, LOWER), (5, 1, UPPER), (3, 8, (5, 6, 8, 7))),
+                                          names=((3, 1, "rock"), (2, 7, "base"), (2, 8, "middle"))),
+                                      {"boundaries": ("base", "middle"), "boundary_middle_quiet": None},
+                                      ["'middle'", "quiet", "inside the body", "outer boundary"]),
+    "quiet line": (msh(elements=((5, 1, LOWER), (5, 1, UPPER), (1, 9, (1, 2))),
+                       names=((3, 1, "rock"), (2, 7, "base"), (1, 9, "rim"))),
+                   {"boundaries": ("base", "rim"), "boundary_rim_quiet": None}, ["'rim'", "quiet", "needs a surface"]),
 }
 
 

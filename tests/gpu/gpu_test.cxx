@@ -1,5 +1,5 @@
 // CPU against GPU: the same scenes on both, to 1e-10 in normal builds and to the last bit without contraction.
-#include "../support/run_scene.hpp"
+#include "../support/quiet_scene.hpp"
 
 #include <cmath>
 
@@ -72,6 +72,11 @@ TEST(CpuGpu, ShapesAndDamping) {
                 "-damping_alpha 5 -damping_beta 1e-5" +
                 kRock,
             1e-10);
+}
+
+TEST(CpuGpu, QuietBoundaries) {
+  for (const char *shape : {"hex", "tet", "wedge"}) Compare(QuietScene(shape, "-ts_max_steps 1000"), 1e-10);
+  Compare(QuietScene("hex", "-damping_beta 2e-5 -ts_max_steps 1000"), 1e-10);
 }
 
 TEST(CpuGpu, ElementForms) {
@@ -159,6 +164,7 @@ TEST(GpuRanks, DoNotMatter) {
   for (const char *law : kFailingLaws)
     ExpectRanksDoNotMatter(FailingScene("hex", law) + " -ts_max_steps 1000 -device cuda");
   for (const std::string &scene : FormScenes()) ExpectRanksDoNotMatter(scene + " -ts_max_steps 500 -device cuda");
+  ExpectRanksDoNotMatter(QuietScene("hex", "-ts_max_steps 500 -device cuda"));
 }
 
 TEST(Gpu, BatchesDoNotMatter) {

@@ -29,6 +29,11 @@ SOFTENING = {**BREAKING, "interface_joints_law": "softening", "interface_joints_
 DILATION = {"interface_joints_dilation": 10.0, "interface_joints_dilation_slip": 1e-3}
 
 
+# dashpots below and on two sides, with edges in common, one of them with a held component; a wave from below
+QUIET = {"boundaries": ("zmin", "zmax", "xmin", "ymax"), "boundary_zmin_quiet": True, "boundary_xmin_quiet": True,
+         "boundary_zmin_velocity": (0.5, 0.2, 0.8), "boundary_ymax_fix": "y"}
+
+
 def box(shape):
     return {"mesh": "box", "mesh_box_cells": (4, 4, 6), "mesh_box_size": (2, 2, 3), "mesh_box_shape": shape,
             "mesh_box_jitter": 0.15}
@@ -43,6 +48,9 @@ def scene(name, folder):
         return {**base, **box("hex"), **SOFTENING, **(DILATION if "dilating" in name else {})}, True
     if name.startswith("brittle dilating"):
         return {**base, **box("hex"), **BREAKING, **DILATION}, True
+    if name.startswith("quiet "):
+        still = {key: value for key, value in base.items() if key != "boundary_zmin_displacement"}
+        return {**still, **box(name.split()[1]), **BREAKING, **QUIET}, True
     if name.startswith("torn "):
         return {**base, **box(name.split()[1]), **BREAKING}, True
     if name.startswith("joined "):
@@ -56,7 +64,8 @@ def scene(name, folder):
     return {**base, "mesh": path, **fault, "interfaces": "fault", "interface_fault_on": "between:lower:upper"}, True
 
 
-SCENES = ["torn hex", "torn tet", "torn wedge", "torn by beta", "softening", "softening dilating", "brittle dilating", "joined hex", "joined tet", "fault"]
+SCENES = ["torn hex", "torn tet", "torn wedge", "torn by beta", "softening", "softening dilating", "brittle dilating",
+          "joined hex", "joined tet", "fault", "quiet hex", "quiet tet"]
 
 
 def result(folder, options, **keywords):

@@ -1,5 +1,5 @@
 // Ranks do not matter, to the last bit: run with mpirun -n 2 and -n 3 (ctest does).
-#include "../support/run_scene.hpp"
+#include "../support/quiet_scene.hpp"
 
 namespace cdem {
 namespace {
@@ -26,6 +26,12 @@ TEST(Ranks, DoNotMatterWhenJoined) { ExpectRanksDoNotMatter(std::string(kBrick) 
 
 TEST(Ranks, DoNotMatterInAnyElementForm) {
   for (const std::string &scene : FormScenes()) ExpectRanksDoNotMatter(scene + " -ts_max_steps 500 -device cpu");
+}
+
+TEST(Ranks, DoNotMatterToQuietBoundaries) {
+  for (const char *shape : {"hex", "tet", "wedge"})
+    ExpectRanksDoNotMatter(QuietScene(shape, "-ts_max_steps 500 -device cpu"));
+  ExpectRanksDoNotMatter(QuietScene("hex", "-damping_beta 2e-5 -ts_max_steps 500 -device cpu"));
 }
 
 TEST(Ranks, DoNotMatterWithOneCellEach) {
