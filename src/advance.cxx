@@ -96,7 +96,7 @@ PetscErrorCode Simulation::ReportFailure(const StepPlan &plan, const Failure &fa
   PetscCallMPI(MPI_Bcast(x, 3, MPI_DOUBLE, first.rank, comm_));
   const PetscInt step = plan.first + first.step + 1;
   std::string cause = "a strength, stiffness or load out of proportion";
-  if (!bound_known_ || plan.dt > bound_.dt) cause = "a time step above the critical one (leave out -ts_dt)";
+  if (!bound_known_ || plan.dt > dt_critical()) cause = "a time step above the critical one (leave out -ts_dt)";
   CdemCheck(false, comm_,
             "the run became unstable: the velocity of the node at (%g, %g, %g) left the range of numbers in step %lld "
             "(time %g s). Likely cause: %s. What was written before stays on disk",

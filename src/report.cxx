@@ -59,9 +59,7 @@ PetscErrorCode Simulation::PrintHeader() {
   std::snprintf(text, sizeof text, "dt %.6g s", dt_);
   std::string step = text;
   if (bound_known_) {
-    std::snprintf(text, sizeof text, ", %.3g of the critical step %.6g s (a rigorous bound)", dt_ / bound_.dt,
-                  bound_.dt);
-    step += text;
+    step += CriticalStepText(dt_, bound_, sharp_known_ ? &sharp_ : nullptr);
   } else {
     step += ", the critical step was not computed";
   }
@@ -152,7 +150,8 @@ nlohmann::json Simulation::Summary() const {
     s["broken_blocks"] = last_.broken_elements / static_cast<double>(n_breakable_);
   }
   s["dt"] = dt_;
-  s["dt_critical"] = bound_known_ ? nlohmann::json(bound_.dt) : nlohmann::json();
+  s["dt_critical"] = bound_known_ ? nlohmann::json(dt_critical()) : nlohmann::json();
+  s["dt_bound"] = bound_known_ ? nlohmann::json(bound_.dt) : nlohmann::json();
   s["steps"] = steps_;
   s["time"] = time_;
   s["wall"] = {{"setup", wall_setup_}, {"solve", wall_solve_}, {"output", wall_output_}};
@@ -177,7 +176,8 @@ nlohmann::json Simulation::StageSummary() const {
   nlohmann::json stage;
   if (Staged()) stage["name"] = Now().name;
   stage["solve"] = Now().relax ? "relax" : "dynamic";
-  for (const char *key : {"elements", "springs", "time", "dt", "dt_critical", "broken_springs", "energy", "validity"})
+  for (const char *key :
+       {"elements", "springs", "time", "dt", "dt_critical", "dt_bound", "broken_springs", "energy", "validity"})
     stage[key] = all[key];
   stage["steps"] = steps_ - stage_step_;
   if (n_breakable_ > 0) stage["broken_blocks"] = all["broken_blocks"];

@@ -38,6 +38,7 @@ static PetscErrorCode ReadStage(Options &options, const Mesh &mesh, Scene *scene
 static PetscErrorCode ReadTime(Options &options, Scene *scene) {
   PetscFunctionBeginUser;
   PetscCall(options.Word("ts_central_check", &scene->check));
+  PetscCall(options.Word("ts_central_limit", &scene->limit));
   PetscCall(options.Real("ts_central_safety", &scene->safety));
   CdemCheck(scene->safety > 0 && scene->safety <= 1, options.comm(),
             "-ts_central_safety is %g; it must be above 0 and at most 1", scene->safety);

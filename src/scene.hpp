@@ -26,6 +26,7 @@ struct Scene {
   double dt = 0, safety = 0.9, end_time = 0;  ///< s; the end counts from the stage's beginning
   PetscInt end_step = PETSC_INT_MAX;
   std::string check = "error";  ///< -ts_central_check
+  std::string limit = "sharp";  ///< -ts_central_limit
 };
 
 /// Reads -stages and what every one of them says; a run without stages is one of them, without a name (collective).

@@ -5,7 +5,7 @@
 #include "forces/backend.hpp"
 #include "forces/form_check.hpp"
 #include "forces/joint_check.hpp"
-#include "forces/step_bound.hpp"
+#include "forces/step_text.hpp"
 #include "forces/validity.hpp"
 #include "io/watch.hpp"
 #include "joints/network.hpp"
@@ -36,6 +36,8 @@ class Simulation final : public Stepper {
   const std::vector<JointSet> &joint_sets() const { return joint_sets_; }
   const std::vector<Material> &materials() const { return Now().materials; }
   const StepBound &bound() const { return bound_; }
+  const SharpStep &sharp() const { return sharp_; }
+  double dt_critical() const { return sharp_known_ ? sharp_.dt : bound_.dt; }  ///< s
   double dt() const { return dt_; }
   Backend &backend() { return *backend_; }
 
@@ -103,7 +105,8 @@ class Simulation final : public Stepper {
   // time
   double dt_ = 0;
   StepBound bound_;
-  bool bound_known_ = false;
+  SharpStep sharp_;
+  bool bound_known_ = false, sharp_known_ = false;
   PetscInt last_step_ = PETSC_INT_MAX;       // of the stage, as far as known
   double stage_time_ = 0, pseudo_time_ = 0;  // s; at the stage's beginning; spent in relaxations before it
   PetscInt stage_step_ = 0;                  // at the stage's beginning

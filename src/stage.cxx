@@ -65,22 +65,24 @@ PetscErrorCode Simulation::ChooseStep() {
   const bool scaled = scene.relax && scene.relaxation.scaling;
   dt_ = scene.dt;
   bound_known_ = scaled || !(scene.dt_given && scene.check == "off");
+  sharp_known_ = bound_known_ && scene.limit == "sharp";
   if (bound_known_) PetscCall(ComputeStepBound(tables_, scene.materials, &bound_));
-  // A force that opposes the motion decelerates by up to 1 + local of it: as a body that much stiffer.
-  if (local_ > 0) bound_.dt = CriticalStep((1 + local_) * (bound_.element_w2 + bound_.spring_w2), tables_.beta);
   if (scaled) ScaleMasses(scene.materials, bound_.element_w2 + bound_.spring_w2, &tables_);
+  if (sharp_known_) PetscCall(ComputeSharpStep(mesh_, nodes_, tables_, scene.materials, bound_, &sharp_));
+  if (sharp_known_ && !sharp_.converged) remarks_.push_back(NotSharpText(sharp_));
+  // A force that opposes the motion decelerates by up to 1 + local of it: as a body that much stiffer.
+  if (local_ > 0 && bound_known_)
+    bound_.dt = CriticalStep((1 + local_) * (bound_.element_w2 + bound_.spring_w2), scene.beta);
+  if (local_ > 0 && sharp_known_) sharp_.dt = CriticalStep((1 + local_) * sharp_.w2, scene.beta);
   if (!scene.dt_given) {
-    dt_ = scene.safety * bound_.dt;
+    dt_ = scene.safety * dt_critical();
     CdemCheck(std::isfinite(dt_), comm_, "the critical step is not finite: give -ts_dt");
     if (scene.has_end_time && !scene.relax) dt_ = scene.end_time / std::ceil(scene.end_time / dt_);
-  } else if (bound_known_ && dt_ > bound_.dt) {
-    CdemCheck(scene.check != "error", comm_,
-              "-ts_dt %g is above the critical step %g s. That number is a rigorous bound, up to 1.6 times below the "
-              "exact limit (more where tetrahedra are flat): a larger step may still be stable. Use a smaller -ts_dt "
-              "(or none), or go on with -ts_central_check warn",
-              dt_, bound_.dt);
-    remarks_.push_back("-ts_dt is above the bound of the critical step, " + std::to_string(dt_ / bound_.dt) +
-                       " times: the run may be unstable");
+  } else if (bound_known_ && dt_ > dt_critical()) {
+    const std::string above = StepAboveText(dt_, bound_, sharp_known_ ? &sharp_ : nullptr);
+    CdemCheck(scene.check != "error", comm_, "%s. Use a smaller -ts_dt (or none), or go on with -ts_central_check warn",
+              above.c_str());
+    remarks_.push_back(above + ": the run may be unstable");
   }
   last_step_ = PETSC_INT_MAX;
   if (!scene.relax && scene.has_end_step) last_step_ = stage_step_ + scene.end_step;

@@ -89,6 +89,7 @@ static std::vector<OptionSpec> &Registry() {
       {"ts_max_steps", T::kInt, "", "", "the most steps", ""},
       {"ts_dt", T::kReal, "s", "by `-ts_central_safety`", "the step", ""},
       {"ts_central_safety", T::kReal, "", "0.9", "the step, unless `-ts_dt` gives it, is this times the critical one, fitted to the end time", ""},
+      {"ts_central_limit", T::kWord, "", "sharp", "the critical step: sharp: that of the highest frequency, by Krylov steps; bound: the cheap and rigorous bound below it", "sharp,bound"},
       {"ts_central_check", T::kWord, "", "error", "what to do when `-ts_dt` is above the critical step", "error,warn,off"},
       {"ts_central_batch", T::kInt, "", "1000", "most steps that TS takes as one, up to the next thing due; PETSc's monitors see batch ends", ""},
       {"relax_damping", T::kWord, "", "rayleigh", "what brings it to rest. rayleigh: by mass, critical for the lowest frequency that the motion shows (or `-damping_alpha`, where given); local: 0.8 of the force opposes the motion (or `-damping_local`); combined: half of that opposes the motion, half the change of the force; kinetic: velocities are cleared at every peak of the kinetic energy", "local,kinetic,rayleigh,combined"},

@@ -63,9 +63,9 @@ std::uint64_t Hash(const Canonical &c, int corners) {
   return h;
 }
 
-/// Upper bounds of lambda_max(K_e, M_e) of kLanes elements [out, if wanted]; returns the largest.
+/// A^16 of A = M_e^(-1/2) K_e M_e^(-1/2) over its trace, of kLanes elements: rows of lanes. [out] trace: of A.
 template <class Form>
-double LanesBound(const Canonical *batch, double *each = nullptr) {
+Lanes (*Power16(const Canonical *batch, Lanes *trace))[3 * Form::kCorners] {
   constexpr int corners = Form::kCorners, n = 3 * corners;
   Lanes x[corners][3], param[kMaxParams], scale[corners], u[corners][3] = {}, f[corners][3];
   for (int p = 0; p < kMaxParams; ++p) param[p] = Lanes{};
@@ -80,16 +80,16 @@ double LanesBound(const Canonical *batch, double *each = nullptr) {
     param[Elastic::kMu][l] = batch[l].mu;
   }
   static thread_local Lanes a[n][n], b[n][n];
-  Lanes trace{};
+  *trace = Lanes{};
   for (int j = 0; j < n; ++j) {
     u[j / 3][j % 3] = scale[j / 3];
     ElementForce<Form, Elastic, false, Lanes>(x, u, param, f, nullptr);
     u[j / 3][j % 3] = Lanes{};
     for (int i = 0; i < n; ++i) a[i][j] = f[i / 3][i % 3] * scale[i / 3];
-    trace += a[j][j];
+    *trace += a[j][j];
   }
   for (auto &row : a)
-    for (Lanes &entry : row) entry /= trace;  // all eigenvalues in [0, 1]: the powers stay in range
+    for (Lanes &entry : row) entry /= *trace;  // all eigenvalues in [0, 1]: the powers stay in range
   for (int power = 0; power < 4; ++power) {
     for (int i = 0; i < n; ++i)
       for (int j = i; j < n; ++j) {
@@ -99,40 +99,62 @@ double LanesBound(const Canonical *batch, double *each = nullptr) {
       }
     std::copy(&b[0][0], &b[0][0] + n * n, &a[0][0]);
   }
-  double largest = 0;
+  return a;
+}
+
+/// The largest upper bound of lambda_max(K_e, M_e) so far, and the first element that has it.
+struct Top {
+  double w2 = 0;
+  int element = -1;
+};
+
+/// Upper bounds of lambda_max(K_e, M_e) of kLanes elements.
+template <class Form>
+Lanes LanesBound(const Canonical *batch) {
+  constexpr int n = 3 * Form::kCorners;
+  Lanes trace, bound;
+  const Lanes(*a)[n] = Power16<Form>(batch, &trace);
   for (int l = 0; l < kLanes; ++l) {
     double sum = 0;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) sum += a[i][j][l] * a[i][j][l];
-    const double one = trace[l] * std::pow(sum, 1.0 / 32);
-    if (each) each[l] = one * kRoundingMargin;
-    largest = std::max(largest, one);
+    bound[l] = trace[l] * std::pow(sum, 1.0 / 32) * kRoundingMargin;
   }
-  return largest * kRoundingMargin;
+  return bound;
+}
+
+/// Looks at kLanes elements.
+template <class Form>
+void LookAt(const Canonical *batch, const int *element, Top *top) {
+  const Lanes bound = LanesBound<Form>(batch);
+  for (int l = 0; l < kLanes; ++l)
+    if (bound[l] > top->w2) *top = {bound[l], element[l]};
 }
 
 /// Forms that average their dilatation are bounded as if they did not, with the largest bulk modulus of those that they
 /// average with: averaging is a contraction in the norm that volumes weigh, and so the energy only falls.
 template <class Form>
-double TableBound(const Tables &tables, const ElementTable &t, const std::vector<Material> &materials) {
+Top TableBound(const Tables &tables, const ElementTable &t, const std::vector<Material> &materials) {
   std::unordered_set<std::uint64_t> seen;
   Canonical batch[kLanes];
-  int filled = 0;
-  double largest = 0;
+  int filled = 0, element[kLanes];
+  Top top;
   for (int e = 0; e < t.n; ++e) {
     MakeCanonical(tables, t, materials, e, &batch[filled]);
     // a mesh without congruent elements soon shows it, and then needs no memory of what was seen
     const bool remember = e < 50000 || seen.size() < 25000;
     if (remember && !seen.insert(Hash(batch[filled], t.corners)).second) continue;
+    element[filled] = e;
     if (++filled < kLanes) continue;
-    largest = std::max(largest, LanesBound<Form>(batch));
+    LookAt<Form>(batch, element, &top);
     filled = 0;
   }
   if (filled > 0) {
     std::fill(batch + filled, batch + kLanes, batch[filled - 1]);
-    largest = std::max(largest, LanesBound<Form>(batch));
+    std::fill(element + filled, element + kLanes, element[filled - 1]);
+    LookAt<Form>(batch, element, &top);
   }
-  return largest;
+  return top;
 }
 
 /// The bound of every element of a table [1/s^2]; congruent ones are looked at once.
@@ -150,13 +172,17 @@ std::vector<double> EachBound(const Tables &tables, const ElementTable &t, const
   }
   std::vector<double> bound(Padded(static_cast<int>(kind.size()))), each(t.n);
   kind.resize(bound.size(), kind.back());
-  for (std::size_t i = 0; i < bound.size(); i += kLanes) LanesBound<Form>(&kind[i], &bound[i]);
+  for (std::size_t i = 0; i < bound.size(); i += kLanes) {
+    const Lanes w2 = LanesBound<Form>(&kind[i]);
+    for (int l = 0; l < kLanes; ++l) bound[i + l] = w2[l];
+  }
   for (int e = 0; e < t.n; ++e) each[e] = bound[of_element[e]];
   return each;
 }
 
 /// lambda_max of a symmetric 3x3 matrix from above: ||A^256||_F^(1/256), at most 0.3 % too large.
-double LargestEigenvalue(const std::array<double, 6> &s) {
+/// [out] mode: the longest column of A^256, of length 1; may be NULL.
+double LargestEigenvalue(const std::array<double, 6> &s, double *mode = nullptr) {
   const double trace = s[kXX] + s[kYY] + s[kZZ];
   double a[3][3] = {{s[kXX], s[kXY], s[kXZ]}, {s[kXY], s[kYY], s[kYZ]}, {s[kXZ], s[kYZ], s[kZZ]}}, b[3][3],
          log_scale = 0;
@@ -176,51 +202,93 @@ double LargestEigenvalue(const std::array<double, 6> &s) {
     std::copy(&b[0][0], &b[0][0] + 9, &a[0][0]);
     power *= 2;
   }
+  if (mode) {
+    int j = 0;
+    for (int k = 1; k < 3; ++k)
+      if (a[k][k] > a[j][j]) j = k;
+    const double length = std::sqrt(Dot(a[j], a[j]));
+    for (int k = 0; k < 3; ++k) mode[k] = a[j][k] / length;
+  }
   return std::exp(log_scale) * (1 + 1e-12);
 }
 
-/// S_a of every owned node [N/m].
-std::vector<std::array<double, 6>> SpringStiffness(const Tables &tables) {
-  std::vector<std::array<double, 6>> sum(tables.n_owned, std::array<double, 6>{});
-  for (const SpringTable &t : tables.springs)
-    for (int i = 0; i < t.n; ++i) {
-      double n[3];
-      for (int k = 0; k < 3; ++k) n[k] = t.normal[static_cast<std::size_t>(k) * t.n_pad + i];
-      const double extra = t.kn[i] - t.ks[i];
-      const double s[6] = {t.ks[i] + extra * n[0] * n[0], t.ks[i] + extra * n[1] * n[1], t.ks[i] + extra * n[2] * n[2],
-                           extra * n[0] * n[1],           extra * n[1] * n[2],           extra * n[0] * n[2]};
-      for (int node : {t.a[i], t.b[i]})
-        if (node < tables.n_owned)
-          for (int k = 0; k < 6; ++k) sum[node][k] += s[k];
-    }
-  return sum;
+/// Adds K_n n n^T + K_s (1 - n n^T) of a spring.
+void AddSpring(const SpringTable &t, int i, std::array<double, 6> *sum) {
+  double n[3];
+  for (int k = 0; k < 3; ++k) n[k] = t.normal[static_cast<std::size_t>(k) * t.n_pad + i];
+  const double extra = t.kn[i] - t.ks[i];
+  const double s[6] = {t.ks[i] + extra * n[0] * n[0], t.ks[i] + extra * n[1] * n[1], t.ks[i] + extra * n[2] * n[2],
+                       extra * n[0] * n[1],           extra * n[1] * n[2],           extra * n[0] * n[2]};
+  for (int k = 0; k < 6; ++k) (*sum)[k] += s[k];
 }
 
-double SpringBound(const Tables &tables) {
+/// The largest 2 lambda_max(S_a)/m_a of the owned nodes, and the first node that has it.
+double SpringBound(const Tables &tables, int *node) {
+  *node = -1;
   if (tables.springs.empty()) return 0;
-  const std::vector<std::array<double, 6>> sum = SpringStiffness(tables);
+  std::vector<std::array<double, 6>> sum(tables.n_owned, std::array<double, 6>{});
+  for (const SpringTable &t : tables.springs)
+    for (int i = 0; i < t.n; ++i)
+      for (int end : {t.a[i], t.b[i]})
+        if (end < tables.n_owned) AddSpring(t, i, &sum[end]);
   double largest = 0;
   for (int i = 0; i < tables.n_owned; ++i) {
     const double trace = sum[i][kXX] + sum[i][kYY] + sum[i][kZZ];
-    if (2 * trace * tables.inverse_mass[i] > largest)  // the trace bounds the eigenvalue: most nodes end here
-      largest = std::max(largest, 2 * LargestEigenvalue(sum[i]) * tables.inverse_mass[i]);
+    if (2 * trace * tables.inverse_mass[i] <= largest) continue;  // it bounds the eigenvalue: most nodes end here
+    const double w2 = 2 * LargestEigenvalue(sum[i]) * tables.inverse_mass[i];
+    if (w2 > largest) largest = w2, *node = i;
   }
   return largest;
 }
 
 }  // namespace
 
+void ElementMode(const Tables &tables, const std::vector<Material> &materials, const ElementTable &t, int e,
+                 double (*mode)[3]) {
+  Canonical batch[kLanes];
+  MakeCanonical(tables, t, materials, e, &batch[0]);
+  std::fill(batch + 1, batch + kLanes, batch[0]);
+  VisitElement(t.shape, t.form, [&](auto form) {
+    using Form = decltype(form);
+    constexpr int n = 3 * Form::kCorners;
+    Lanes trace;
+    const Lanes(*a)[n] = Power16<Form>(batch, &trace);
+    int j = 0;
+    for (int i = 1; i < n; ++i)
+      if (a[i][i][0] > a[j][j][0]) j = i;
+    double length2 = 0;
+    for (int i = 0; i < n; ++i) length2 += a[j][i][0] * a[j][i][0];
+    for (int i = 0; i < n; ++i) mode[i / 3][i % 3] = a[j][i][0] / std::sqrt(length2);
+  });
+}
+
+void SpringMode(const Tables &tables, int node, double mode[3]) {
+  std::array<double, 6> sum{};
+  for (const SpringTable &t : tables.springs)
+    for (int i = 0; i < t.n; ++i)
+      for (int end : {t.a[i], t.b[i]})
+        if (end == node) AddSpring(t, i, &sum);
+  LargestEigenvalue(sum, mode);
+}
+
 PetscErrorCode ComputeStepBound(const Tables &tables, const std::vector<Material> &materials, StepBound *bound) {
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.bound, nullptr, nullptr, nullptr, nullptr));
-  double w2[2] = {0, SpringBound(tables)};
-  for (const ElementTable &t : tables.elements)
-    VisitElement(t.shape, t.form,
-                 [&](auto form) { w2[0] = std::max(w2[0], TableBound<decltype(form)>(tables, t, materials)); });
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, w2, 2, MPI_DOUBLE, MPI_MAX, tables.comm));
+  *bound = StepBound();
+  double here[2] = {0, SpringBound(tables, &bound->node)};
+  std::vector<Top> top(tables.elements.size());
+  for (std::size_t g = 0; g < top.size(); ++g) {
+    const ElementTable &t = tables.elements[g];
+    VisitElement(t.shape, t.form, [&](auto form) { top[g] = TableBound<decltype(form)>(tables, t, materials); });
+    here[0] = std::max(here[0], top[g].w2);
+  }
+  double w2[2];
+  PetscCallMPI(MPI_Allreduce(here, w2, 2, MPI_DOUBLE, MPI_MAX, tables.comm));
   bound->element_w2 = w2[0];
   bound->spring_w2 = w2[1];
-  bound->dt = CriticalStep(w2[0] + w2[1], tables.beta);
+  bound->dt = CriticalStep(bound->w2(), tables.beta);
+  for (const Top &t : top) bound->element.push_back(t.w2 == w2[0] ? t.element : -1);
+  if (here[1] < w2[1]) bound->node = -1;
   PetscCall(PetscLogEventEnd(events.bound, nullptr, nullptr, nullptr, nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -241,7 +309,11 @@ void ScaleMasses(const std::vector<Material> &materials, double w2, Tables *tabl
       }
     });
   if (!tables->springs.empty()) {
-    const std::vector<std::array<double, 6>> sum = SpringStiffness(*tables);
+    std::vector<std::array<double, 6>> sum(tables->n_owned, std::array<double, 6>{});
+    for (const SpringTable &t : tables->springs)
+      for (int i = 0; i < t.n; ++i)
+        for (int end : {t.a[i], t.b[i]})
+          if (end < tables->n_owned) AddSpring(t, i, &sum[end]);
     for (int i = 0; i < tables->n_owned; ++i) scaled[i] += 2 * LargestEigenvalue(sum[i]) / w2;
   }
   tables->weight.assign(tables->n_owned, 0.0);

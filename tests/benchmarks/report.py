@@ -99,7 +99,7 @@ def ts(case):
 def setup(case):
     n = elements(case["summary"])
     return ("## Set-up\n"
-            f"A box of {n}, general shape, one process, bound of the critical step included: **{case['seconds']:.2f} s** "
+            f"A box of {n}, general shape, one process, critical step included: **{case['seconds']:.2f} s** "
             f"(median of {sum(r['used'] for r in case['runs'])}, spread {percent(case['spread'])}) and "
             f"**{case['peak_gib']:.2f} GiB** at most over the whole run "
             f"(bars: 20 s and 8 GiB, {'reached' if case['reached'] else '**missed**'}).\n\n")

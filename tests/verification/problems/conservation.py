@@ -38,7 +38,7 @@ def supported_body(lab, steps):
     form = results.monitor("energy.txt")["form"]
     at = int(np.argmax(np.abs(form - form[0])))
     ratio = results.summary["dt"] / results.summary["dt_critical"]
-    return [Row(f"energy form over {steps} steps at {ratio:.2g} of the bound of the critical step, J",
+    return [Row(f"energy form over {steps} steps at {ratio:.2g} of the critical step, J",
                 "v(n-1/2).M v(n+1/2)/2 + u.K u/2 of step 0", form[0], form[at], abs(form[at] / form[0] - 1), 1e-12,
                 "8 distorted hexahedra, all faces elastic springs, base held")]
 

@@ -1,0 +1,28 @@
+// The sharp critical step: the highest frequency itself, by Krylov steps, where the cheap bound judges every element alone.
+#pragma once
+#include "forces/step_bound.hpp"
+
+namespace cdem {
+
+struct SharpStep {
+  double theta = 0;        ///< the largest Ritz value [1/s^2], never above the largest eigenvalue
+  double residual = 0;     ///< of its Ritz vector [1/s^2]
+  int iterations = 0;      ///< products with the stiffness
+  bool converged = false;  ///< otherwise the bound is taken
+  double w2 = 0;           ///< min(bound, theta + residual) [1/s^2]
+  double dt = 0;  ///< critical step with beta [s], rounded down to 10 significant bits; never below the bound's
+};
+
+/// The largest eigenvalue of M^(-1/2) K M^(-1/2) over the free components, springs closed (collective; the same on any
+/// number of ranks). An estimate: theta + residual says that an eigenvalue is there, and the start vector, random with
+/// the modes that give the bound, that it is the largest. Where nothing free has stiffness, the bound is taken.
+PetscErrorCode ComputeSharpStep(const Mesh &mesh, const Nodes &nodes, const Tables &tables,
+                                const std::vector<Material> &materials, const StepBound &bound, SharpStep *sharp);
+
+/// The square of the residual norm of the largest Ritz pair of a Lanczos process, from the Ritz values alone.
+/// [in] before: of k - 1 steps, ascending; now: of k steps. With theta the largest of before, and p_k the characteristic
+/// polynomials: p_k(theta) = -b_k^2 p_(k-2)(theta) and s^2 = p_(k-2)(theta)/p_(k-1)'(theta) make
+/// (b_k s)^2 = -p_k(theta)/p_(k-1)'(theta).
+double RitzResidual2(const std::vector<double> &before, const std::vector<double> &now);
+
+}  // namespace cdem
