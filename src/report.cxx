@@ -56,6 +56,14 @@ PetscErrorCode Simulation::PrintHeader() {
       PetscCall(line("", text));
     }
   PetscCall(PrintJointSets());
+  if (!restart_file_.empty()) {
+    std::snprintf(text, sizeof text, "from step %lld, time %.6g s, of ", static_cast<long long>(first_step_),
+                  first_time_);
+    const std::string files = output_dir_.empty() ? ""
+                              : goes_on_          ? "; histories and frames go on there"
+                                                  : "; histories and frames begin at that step in " + output_dir_;
+    PetscCall(line("restart", text + restart_file_ + files));
+  }
   std::snprintf(text, sizeof text, "dt %.6g s", dt_);
   std::string step = text;
   if (bound_known_) {
@@ -152,12 +160,13 @@ nlohmann::json Simulation::Summary() const {
   s["dt"] = dt_;
   s["dt_critical"] = bound_known_ ? nlohmann::json(dt_critical()) : nlohmann::json();
   s["dt_bound"] = bound_known_ ? nlohmann::json(bound_.dt) : nlohmann::json();
+  if (!restart_file_.empty()) s["restart"] = {{"file", restart_file_}, {"step", first_step_}, {"time", first_time_}};
   s["steps"] = steps_;
   s["time"] = time_;
   s["wall"] = {{"setup", wall_setup_}, {"solve", wall_solve_}, {"output", wall_output_}};
   for (const auto &[phase, seconds] : wall_phases_) s["wall"]["setup_" + phase] = seconds;
   for (const auto &[phase, seconds] : backend_->Phases()) s["wall"]["solve_" + phase] = seconds;
-  s["element_steps_per_second"] = wall_solve_ > 0 ? n * static_cast<double>(steps_) / wall_solve_ : 0;
+  s["element_steps_per_second"] = wall_solve_ > 0 ? n * static_cast<double>(steps_ - first_step_) / wall_solve_ : 0;
   PetscLogDouble bytes = 0;
   (void)PetscMemoryGetCurrentUsage(&bytes);
   s["memory"] = {{"host", bytes}, {"device", device_ == "cuda" ? static_cast<double>(backend_->Bytes()) : 0.0}};

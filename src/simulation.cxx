@@ -25,20 +25,17 @@ PetscErrorCode Simulation::SetUp() {
   PetscCall(PetscLogStagePush(events.setup));
   PetscCall(ReadInput());
   PetscCall(BuildModel());
+  PetscCall(IdentifyScene());
   Phase("device");
   PetscCall(CreateBackend());
   PetscCall(SetInitialStress());
   PetscCall(SetInitialVelocity());
   PetscCall(CreateTS(0));
+  PetscCall(LoadCheckpoint());
   Phase("files");
   PetscCall(monitors_.ReadOptions(options_, scenes_.size() > 1 ? PETSC_INT_MAX : last_step_));
   PetscCall(options_.CheckLeft());
-  if (!output_dir_.empty()) {
-    PetscCall(PrepareOutputDir(comm_, output_dir_, output_overwrite_));
-    PetscCall(WriteJointSets());
-    PetscCall(recorder_.Open(comm_, output_dir_, histories_));
-    PetscCall(fields_.Open(output_dir_, mesh_, nodes_, tables_, face_interface_, with_plastic_, with_broken_));
-  }
+  PetscCall(OpenOutput());
   PetscCall(monitors_.Open(comm_, n_breakable_ > 0));
   PetscCall(PetscLogStagePop());
   wall_setup_ = MPI_Wtime() - wall_start_;
@@ -65,6 +62,7 @@ PetscErrorCode Simulation::ReadInput() {
   PetscCall(options_.Int("ts_central_batch", &batch_, &batch_given_));
   CdemCheck(!batch_given_ || batch_ >= 1, comm_, "-ts_central_batch is %lld; it must be at least 1",
             static_cast<long long>(batch_));
+  PetscCall(ReadRestart());
   Phase("mesh");
   PetscCall(PetscLogEventBegin(events.mesh, nullptr, nullptr, nullptr, nullptr));
   PetscCall(CreateMesh(comm_, options_, &mesh_));
@@ -76,6 +74,8 @@ PetscErrorCode Simulation::ReadInput() {
   Phase("scene");
   PetscCall(SelectInterfaces(mesh_, options_, joint_faces, &interface_names_, &face_interface_));
   PetscCall(ReadScenes(options_, mesh_, interface_names_, &scenes_, &remarks_));
+  CdemCheck(!Staged() && !Now().relax || (!checkpoints_.Active() && restart_file_.empty()), comm_,
+            "checkpoints and -restart are for dynamic runs without stages so far: take -checkpoint_interval out");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -7,6 +7,8 @@
 #include "forces/joint_check.hpp"
 #include "forces/step_text.hpp"
 #include "forces/validity.hpp"
+#include "io/checkpoint.hpp"
+#include "io/earlier_run.hpp"
 #include "io/watch.hpp"
 #include "joints/network.hpp"
 #include "scene.hpp"
@@ -72,6 +74,14 @@ class Simulation final : public Stepper {
   PetscInt StepsToCheck(PetscInt step) const;
   PetscErrorCode StopMotion();
   PetscErrorCode ReportImbalance();
+
+  // restart.cxx
+  PetscErrorCode ReadRestart();
+  PetscErrorCode IdentifyScene();       ///< by what checkpoints know it; the one to start from must be of this scene
+  bool KeepsStep(bool dt_given) const;  ///< the step is that of the checkpoint
+  PetscErrorCode LoadCheckpoint();
+  PetscErrorCode OpenOutput();
+  PetscErrorCode WriteCheckpoint(PetscInt step);
   PetscErrorCode PrintHeader();
   PetscErrorCode PrintJointSets();
   PetscErrorCode WriteJointSets();
@@ -128,6 +138,16 @@ class Simulation final : public Stepper {
   Monitors monitors_;
   HistoryRecorder recorder_;
   FieldOutput fields_;
+
+  // checkpoints
+  std::string restart_file_;  // "": the run starts at rest
+  bool goes_on_ = false;      // in the output folder of the run that wrote it
+  PetscInt first_step_ = 0;   // where this run starts
+  double first_time_ = 0;
+  CheckpointReader restart_;
+  CheckpointWriter checkpoints_;
+  CheckpointScene checkpoint_scene_;
+  EarlierRun earlier_;
 
   // figures of the run
   std::vector<std::pair<std::string, double>> wall_phases_;  // of the set-up

@@ -63,8 +63,9 @@ PetscErrorCode Simulation::ChooseStep() {
   PetscFunctionBeginUser;
   const Scene &scene = Now();
   const bool scaled = scene.relax && scene.relaxation.scaling;
-  dt_ = scene.dt;
-  bound_known_ = scaled || !(scene.dt_given && scene.check == "off");
+  const bool kept = KeepsStep(scene.dt_given), given = scene.dt_given || kept;
+  dt_ = kept ? restart_.Number("dt") : scene.dt;
+  bound_known_ = scaled || !(given && scene.check == "off");
   sharp_known_ = bound_known_ && scene.limit == "sharp";
   if (bound_known_) PetscCall(ComputeStepBound(tables_, scene.materials, &bound_));
   if (scaled) ScaleMasses(scene.materials, bound_.element_w2 + bound_.spring_w2, &tables_);
@@ -74,11 +75,12 @@ PetscErrorCode Simulation::ChooseStep() {
   if (local_ > 0 && bound_known_)
     bound_.dt = CriticalStep((1 + local_) * (bound_.element_w2 + bound_.spring_w2), scene.beta);
   if (local_ > 0 && sharp_known_) sharp_.dt = CriticalStep((1 + local_) * sharp_.w2, scene.beta);
-  if (!scene.dt_given) {
+  const double left = scene.end_time - first_time_;
+  if (!given) {
     dt_ = scene.safety * dt_critical();
     CdemCheck(std::isfinite(dt_), comm_, "the critical step is not finite: give -ts_dt");
-    if (scene.has_end_time && !scene.relax) dt_ = scene.end_time / std::ceil(scene.end_time / dt_);
-  } else if (bound_known_ && dt_ > dt_critical()) {
+    if (scene.has_end_time && !scene.relax && left > 0) dt_ = left / std::ceil(left / dt_);
+  } else if (!kept && bound_known_ && dt_ > dt_critical()) {
     const std::string above = StepAboveText(dt_, bound_, sharp_known_ ? &sharp_ : nullptr);
     CdemCheck(scene.check != "error", comm_, "%s. Use a smaller -ts_dt (or none), or go on with -ts_central_check warn",
               above.c_str());
@@ -86,8 +88,8 @@ PetscErrorCode Simulation::ChooseStep() {
   }
   last_step_ = PETSC_INT_MAX;
   if (!scene.relax && scene.has_end_step) last_step_ = stage_step_ + scene.end_step;
-  if (!scene.relax && scene.has_end_time && scene.end_time / dt_ < static_cast<double>(last_step_ - stage_step_))
-    last_step_ = stage_step_ + static_cast<PetscInt>(std::ceil(scene.end_time / dt_ - 1e-6));
+  if (!scene.relax && scene.has_end_time && left / dt_ < static_cast<double>(last_step_ - stage_step_ - first_step_))
+    last_step_ = stage_step_ + first_step_ + static_cast<PetscInt>(std::ceil(left / dt_ - 1e-6));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

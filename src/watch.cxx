@@ -11,6 +11,7 @@ PetscInt Simulation::StepsToNext(PetscInt step, PetscReal time, PetscReal dt) {
   PetscInt n = monitors_.ToNext(step, time, dt);
   if (!output_dir_.empty()) n = std::min(n, frame_interval_.ToNext(step, time, dt));
   if (relaxation_) n = std::min(n, StepsToCheck(step));
+  if (checkpoints_.Active()) n = std::min(n, checkpoints_.ToNext(step, time, dt));
   return n;
 }
 
@@ -40,6 +41,7 @@ PetscErrorCode Simulation::Watch(PetscInt step, double time) {
   if (monitors_.Due(step, time, reached, last)) {
     Sight sight;
     sight.step = step;
+    sight.first_step = first_step_;
     sight.last_step = last_step_;
     sight.time = time;
     for (std::int64_t n : n_cells_) sight.elements += static_cast<double>(n);
@@ -56,8 +58,10 @@ PetscErrorCode Simulation::Watch(PetscInt step, double time) {
     sight.wall = MPI_Wtime() - wall_start_ - wall_output_;
     PetscCall(monitors_.Print(sight, reached, last));
   }
-  const bool frame = step == 0 || last || frame_interval_.Due(step, time, reached);
+  const bool first = step == first_step_ && !goes_on_;
+  const bool frame = first || last || frame_interval_.Due(step, time, reached);
   if (!output_dir_.empty() && (frame || last)) PetscCall(WriteFrame(step, time));
+  if (checkpoints_.Due(step, time, reached, last, first_step_)) PetscCall(WriteCheckpoint(step));
   wall_output_ += MPI_Wtime() - begin;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

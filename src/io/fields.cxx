@@ -59,6 +59,13 @@ PetscErrorCode FieldOutput::Open(const std::string &dir, const Mesh &mesh, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode FieldOutput::Continue(EarlierRun *earlier) {
+  PetscFunctionBeginUser;
+  PetscCall(blocks_.Continue(earlier->Frames("fields")));
+  if (with_interfaces_) PetscCall(interfaces_.Continue(earlier->Frames("interfaces")));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode FieldOutput::OpenInterfaces(const std::string &dir, const std::vector<int> &face_interface) {
   PetscFunctionBeginUser;
   const Mesh &mesh = *mesh_;

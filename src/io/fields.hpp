@@ -16,6 +16,8 @@ class FieldOutput {
   /// Writes the mesh files into a folder that exists. [in] plastic, broken: some stage has such fields.
   PetscErrorCode Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
                       const std::vector<int> &face_interface, bool plastic, bool broken);
+  /// Goes on behind the frames of an earlier run.
+  PetscErrorCode Continue(EarlierRun *earlier);
   /// One frame from host copies at u(n) and the histories of the step before. [in] v_now: [n_owned][3]; stress: [owned
   /// cells][6]; springs: with each force.
   PetscErrorCode Write(PetscInt step, double time, const double *u, const std::vector<double> &v_now,

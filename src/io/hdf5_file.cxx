@@ -34,6 +34,17 @@ std::string Reserve(const std::string &path, std::int64_t bytes) {
   return failure + std::strerror(code) + SpaceLeft(path);
 }
 
+// Waits until a file, or the names in a folder, are on the disk.
+bool OnDisk(const std::string &path) {
+  const int file = open(path.empty() ? "." : path.c_str(), O_RDONLY);
+  if (file < 0) return false;
+  const bool good = fsync(file) == 0;
+  const int code = errno;
+  close(file);
+  errno = code;
+  return good;
+}
+
 }  // namespace
 
 Hdf5File::Hdf5File(MPI_Comm comm, std::string path) : comm_(comm), path_(std::move(path)) {
@@ -146,15 +157,18 @@ PetscErrorCode Hdf5File::Write(hid_t group, const char *name, hid_t type, hid_t 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Hdf5File::Finish(const std::string &name) {
+PetscErrorCode Hdf5File::Finish(const std::string &name, bool durable) {
   PetscFunctionBeginUser;
+  if (durable && failure_.empty()) Keep(H5Fflush(file_, H5F_SCOPE_GLOBAL));  // every rank hands over what it wrote
   Close();
   if (rank_ == 0) {
     std::error_code ignored;  // cutting it to its own size lets go of what was reserved beyond it
     std::filesystem::resize_file(path_, std::filesystem::file_size(path_, ignored), ignored);
+    if (durable && failure_.empty() && !OnDisk(path_)) failure_ = "cannot write " + path_ + ": " + std::strerror(errno);
     if (failure_.empty() && std::rename(path_.c_str(), name.c_str()) != 0)
       failure_ = "cannot rename " + path_ + " to " + name + ": " + std::strerror(errno);
     if (!failure_.empty()) std::remove(path_.c_str());
+    if (durable && failure_.empty()) (void)OnDisk(std::filesystem::path(name).parent_path());  // not all can do it
   }
   PetscCall(Check());
   PetscFunctionReturn(PETSC_SUCCESS);

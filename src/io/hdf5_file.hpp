@@ -37,8 +37,9 @@ class Hdf5File {
   /// A dataset [total][components], or [total] where components is 0; type in the file, memory that of data (host).
   PetscErrorCode Write(hid_t group, const char *name, hid_t type, hid_t memory, const Hdf5Block &block, int components,
                        const void *data);
-  /// Closes the file and gives it its name: from now on it counts as written.
-  PetscErrorCode Finish(const std::string &name);
+  /// Closes the file and gives it its name: from now on it counts as written. [in] durable: when it has the name, it is on
+  /// the disk, and outlives a loss of power too.
+  PetscErrorCode Finish(const std::string &name, bool durable = false);
 
  private:
   template <class T>

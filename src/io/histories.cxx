@@ -12,7 +12,8 @@ PetscErrorCode HistoryRecorder::ReadOptions(Options &options) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode HistoryRecorder::Open(MPI_Comm comm, const std::string &dir, const std::vector<History> &histories) {
+PetscErrorCode HistoryRecorder::Open(MPI_Comm comm, const std::string &dir, const std::vector<History> &histories,
+                                     bool append) {
   PetscFunctionBeginUser;
   comm_ = comm;
   histories_ = histories;
@@ -21,7 +22,7 @@ PetscErrorCode HistoryRecorder::Open(MPI_Comm comm, const std::string &dir, cons
   std::vector<std::string> names;
   for (const History &h : histories_) names.push_back(h.name);
   origin_.assign(histories_.size(), 0.0);
-  PetscCall(file_.Open(comm_, dir, names));
+  PetscCall(file_.Open(comm_, dir, names, append));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

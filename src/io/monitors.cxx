@@ -8,12 +8,13 @@ namespace {
 
 PetscErrorCode PrintProgress(PetscViewer viewer, const Sight &s) {
   PetscFunctionBeginUser;
-  const double rate = s.wall > 0 ? s.elements * static_cast<double>(s.step) / s.wall : 0;
+  const double done = static_cast<double>(s.step - s.first_step);
+  const double rate = s.wall > 0 ? s.elements * done / s.wall : 0;
   char left[64] = "";
-  if (s.last_step < PETSC_INT_MAX && s.step > 0)
+  if (s.last_step < PETSC_INT_MAX && done > 0)
     std::snprintf(left, sizeof left, "  %5.1f %%  %.3g s left",
                   100.0 * static_cast<double>(s.step) / static_cast<double>(s.last_step),
-                  s.wall * static_cast<double>(s.last_step - s.step) / static_cast<double>(s.step));
+                  s.wall * static_cast<double>(s.last_step - s.step) / done);
   PetscCall(PetscViewerASCIIPrintf(viewer, "step %8lld  time %.6e s  wall %.3g s  %.3g M element-steps/s%s\n",
                                    static_cast<long long>(s.step), s.time, s.wall, rate / 1e6, left));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -18,12 +18,19 @@ PetscErrorCode WriteFileSafely(const std::string &path, const std::string &text)
 /// removed, and nothing else); writes scene.opts (every option in force). Collective.
 PetscErrorCode PrepareOutputDir(MPI_Comm comm, const std::string &dir, bool overwrite);
 
+/// Writes scene.opts (every option in force); the text of the failure, or "". Call on one rank.
+std::string SceneFile(const std::string &dir);
+
 /// histories.csv: a header "step,time,<name>,...", then one row a recorded step, 17 digits. Rows are appended and flushed
 /// by rank 0. A failed write is an error.
 class HistoryFile {
  public:
   ~HistoryFile();
-  PetscErrorCode Open(MPI_Comm comm, const std::string &dir, const std::vector<std::string> &names);
+  /// Its first line, without the end.
+  static std::string Header(const std::vector<std::string> &names);
+  /// [in] append: goes on behind the rows that are there.
+  PetscErrorCode Open(MPI_Comm comm, const std::string &dir, const std::vector<std::string> &names,
+                      bool append = false);
   /// values[row][column] on rank 0.
   PetscErrorCode Append(const std::vector<PetscInt> &steps, const std::vector<double> &times,
                         const std::vector<std::vector<double>> &values);

@@ -1,5 +1,7 @@
 #include "io/vtk_series.hpp"
 
+#include "core/error.hpp"
+#include "io/blocks.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/safe_file.hpp"
 
@@ -9,57 +11,6 @@
 namespace cdem {
 
 namespace {
-
-// Rows that a rank gives, in any order, to contiguous blocks of the global numbers.
-PetscErrorCode CreateBlocks(MPI_Comm comm, const std::vector<std::int64_t> &numbers, const char *what, PetscSF *sf,
-                            Hdf5Block *block) {
-  PetscFunctionBeginUser;
-  const std::int64_t n = static_cast<std::int64_t>(numbers.size());
-  std::int64_t total;
-  PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPI_INT64_T, MPI_SUM, comm));
-  CdemCheck(total <= PETSC_INT_MAX, comm, "%lld %s are too many for a PETSc with 32-bit integers",
-            static_cast<long long>(total), what);
-  PetscLayout layout;
-  PetscInt begin, end;
-  PetscCall(PetscLayoutCreateFromSizes(comm, PETSC_DECIDE, static_cast<PetscInt>(total), 1, &layout));
-  PetscCall(PetscLayoutGetRange(layout, &begin, &end));
-  *block = {static_cast<hsize_t>(total), static_cast<hsize_t>(begin), static_cast<hsize_t>(end - begin)};
-
-  const bool good = std::all_of(numbers.begin(), numbers.end(), [&](std::int64_t i) { return i >= 0 && i < total; });
-  int bad = !good, any_bad;
-  std::vector<PetscSFNode> roots(numbers.size());
-  for (std::size_t i = 0; good && i < numbers.size(); ++i) {
-    PetscMPIInt owner;
-    PetscCall(PetscLayoutFindOwnerIndex(layout, static_cast<PetscInt>(numbers[i]), &owner, &roots[i].index));
-    roots[i].rank = owner;
-  }
-  PetscCall(PetscLayoutDestroy(&layout));
-  PetscCallMPI(MPI_Allreduce(&bad, &any_bad, 1, MPI_INT, MPI_MAX, comm));
-  PetscCheck(!any_bad, comm, PETSC_ERR_PLIB, "global numbers of %s are not within 0 and their count", what);
-  PetscCall(PetscSFDestroy(sf));
-  PetscCall(PetscSFCreate(comm, sf));
-  PetscCall(PetscSFSetGraph(*sf, end - begin, static_cast<PetscInt>(n), nullptr, PETSC_COPY_VALUES, roots.data(),
-                            PETSC_COPY_VALUES));
-  const PetscInt *degree;
-  PetscCall(PetscSFComputeDegreeBegin(*sf, &degree));
-  PetscCall(PetscSFComputeDegreeEnd(*sf, &degree));
-  bad = !std::all_of(degree, degree + (end - begin), [](PetscInt d) { return d == 1; });
-  PetscCallMPI(MPI_Allreduce(&bad, &any_bad, 1, MPI_INT, MPI_MAX, comm));
-  PetscCheck(!any_bad, comm, PETSC_ERR_PLIB, "global numbers of %s are not given once each", what);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-template <class T>
-PetscErrorCode ToBlock(PetscSF sf, MPI_Datatype type, int width, const T *rows, std::vector<T> *block) {
-  PetscFunctionBeginUser;
-  MPI_Datatype unit;
-  PetscCallMPI(MPI_Type_contiguous(width, type, &unit));
-  PetscCallMPI(MPI_Type_commit(&unit));
-  PetscCall(PetscSFReduceBegin(sf, unit, rows, block->data(), MPI_REPLACE));
-  PetscCall(PetscSFReduceEnd(sf, unit, rows, block->data(), MPI_REPLACE));
-  PetscCallMPI(MPI_Type_free(&unit));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 const char *const kMeshSets[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points", "Connectivity",
                                  "Offsets",        "Types"};
@@ -168,9 +119,9 @@ PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vect
   PetscCheck(point_sf_, PETSC_COMM_SELF, PETSC_ERR_ORDER, "a frame before its mesh");
   int rank;
   PetscCallMPI(MPI_Comm_rank(comm_, &rank));
-  char number[32];
-  std::snprintf(number, sizeof(number), "_%06zu.hdf", frames_.size());
-  const std::string frame = name_ + number;
+  if (!frames_.empty() && frames_.back().step == step) PetscFunctionReturn(PETSC_SUCCESS);
+  const long long count = frames_.empty() ? 0 : frames_.back().number + 1;
+  const std::string frame = FileName(count);
 
   std::int64_t numbers = 0;
   for (const VtkField &field : fields) numbers += field.components * (field.on_points ? points_total_ : cells_total_);
@@ -198,12 +149,34 @@ PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vect
   }
   PetscCall(file.Finish(dir_ + "/" + frame));
 
-  frames_.emplace_back(frame, time);
+  frames_.push_back({count, step, time});
+  PetscCall(WriteList());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode VtkSeries::Continue(const std::vector<KeptFrame> &frames) {
+  PetscFunctionBeginUser;
+  frames_ = frames;
+  PetscCall(WriteList());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+std::string VtkSeries::FileName(long long number) const {
+  char text[40];
+  std::snprintf(text, sizeof(text), "_%06lld.hdf", number);
+  return name_ + text;
+}
+
+PetscErrorCode VtkSeries::WriteList() const {
+  PetscFunctionBeginUser;
+  int rank;
+  PetscCallMPI(MPI_Comm_rank(comm_, &rank));
   std::string failure;
   if (rank == 0) {
     std::string list;
-    for (const auto &[file_name, at] : frames_)
-      list += (list.empty() ? "" : ",") + ("\n" + nlohmann::ordered_json{{"name", file_name}, {"time", at}}.dump());
+    for (const KeptFrame &frame : frames_)
+      list += (list.empty() ? "" : ",") +
+              ("\n" + nlohmann::ordered_json{{"name", FileName(frame.number)}, {"time", frame.time}}.dump());
     failure = ReplaceFile(dir_ + "/" + name_ + ".hdf.series",
                           "{\"file-series-version\": \"1.0\", \"files\": [" + list + "\n]}\n");
   }

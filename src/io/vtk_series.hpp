@@ -1,11 +1,10 @@
 // A time series for ParaView: one VTKHDF file a frame (NAME_000000.hdf), the mesh once in NAME_mesh_000.h5 linked from
 // every frame, and NAME.hdf.series. A frame counts as written when it was renamed from .part; the series follows.
 #pragma once
-#include "core/petsc.hpp"
+#include "io/earlier_run.hpp"
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace cdem {
@@ -34,18 +33,23 @@ class VtkSeries {
   ~VtkSeries();
   /// Writes the mesh file in folder dir (which exists). Collective.
   PetscErrorCode Create(MPI_Comm comm, const std::string &dir, const std::string &name, const VtkMesh &mesh);
+  /// Goes on behind frames that an earlier run has left in the folder: the series names them alone now. Collective.
+  PetscErrorCode Continue(const std::vector<KeptFrame> &frames);
   /// Writes one frame and then the series file, each safely (temporary file, rename). Collective. The file of a frame is
-  /// numbered by frames, from 0.
+  /// numbered by frames, from 0. A frame of a step that is there already stays.
   PetscErrorCode WriteFrame(PetscInt step, double time, const std::vector<VtkField> &fields);
 
  private:
+  std::string FileName(long long number) const;
+  PetscErrorCode WriteList() const;
+
   MPI_Comm comm_ = MPI_COMM_NULL;
   std::string dir_, name_;
   PetscSF point_sf_ = nullptr, cell_sf_ = nullptr;  // from this rank's rows to contiguous blocks of the file
   PetscInt n_points_ = 0, n_cells_ = 0;             // of this rank
   std::int64_t point_offset_ = 0, cell_offset_ = 0, points_total_ = 0, cells_total_ = 0;
   PetscInt point_rows_ = 0, cell_rows_ = 0;  // of this rank's block of the file
-  std::vector<std::pair<std::string, double>> frames_;
+  std::vector<KeptFrame> frames_;
 };
 
 }  // namespace cdem

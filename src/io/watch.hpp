@@ -13,6 +13,7 @@ class Options;
 /// What a monitor sees: sums over all ranks at u(n).
 struct Sight {
   PetscInt step = 0, last_step = PETSC_INT_MAX;  ///< last_step: where the run ends, as far as known
+  PetscInt first_step = 0;                       ///< where it began
   double time = 0, wall = 0;                     ///< s; wall since the solve began
   double elements = 0;                           ///< of the whole mesh
   double breakable = 0;                          ///< elements of laws that break them
@@ -65,7 +66,8 @@ class HistoryRecorder {
  public:
   PetscErrorCode ReadOptions(Options &options);
   /// Begins histories.csv in a folder that exists; the histories know their slots by now.
-  PetscErrorCode Open(MPI_Comm comm, const std::string &dir, const std::vector<History> &histories);
+  /// [in] append: behind the rows of an earlier run.
+  PetscErrorCode Open(MPI_Comm comm, const std::string &dir, const std::vector<History> &histories, bool append);
   bool Empty() const { return histories_.empty(); }
   /// Displacements count from these of the owned nodes [n_owned][3] from now on.
   PetscErrorCode SetOrigin(const double *u);

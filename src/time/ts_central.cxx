@@ -110,6 +110,29 @@ PetscErrorCode CreateTSCentral(MPI_Comm comm, Stepper *stepper, PetscInt batch, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode TSCentralGetState(TS ts, CentralState *state) {
+  PetscFunctionBegin;
+  const Central *c = static_cast<const Central *>(ts->data);
+  *state = {ts->steps, c->base_step, ts->ptime, c->base_time, c->dt, c->dt_old};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode TSCentralSetState(TS ts, const CentralState &state) {
+  PetscFunctionBegin;
+  Central *c = static_cast<Central *>(ts->data);
+  c->base_step = state.base_step;
+  c->base_time = state.base_time;
+  c->dt = state.dt;
+  c->dt_old = state.dt_old;
+  // A run that ended there was put onto its end; one that goes on past it has the time of its steps.
+  const PetscReal counted = state.base_time + static_cast<PetscReal>(state.step - state.base_step) * state.dt;
+  PetscReal time = std::fabs(counted - state.time) < 1e-6 * state.dt ? counted : state.time;
+  if (std::fabs(ts->max_time - time) < 1e-6 * state.dt) time = ts->max_time;
+  PetscCall(TSSetStepNumber(ts, state.step));
+  PetscCall(TSSetTime(ts, time));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode TSCentralGetLastStep(TS ts, PetscReal *dt) {
   PetscFunctionBegin;
   *dt = static_cast<Central *>(ts->data)->dt_old;

@@ -28,6 +28,14 @@ PetscErrorCode RegisterTSCentral();
 /// Creates a TS of this type for a stepper (borrowed) and the vectors of TS2SetSolution.
 /// [in] batch: most steps in one TSStep; 0: 1000.
 PetscErrorCode CreateTSCentral(MPI_Comm comm, Stepper *stepper, PetscInt batch, Vec u, Vec v, TS *ts);
+/// Where a run stands: what a later one needs to take the same steps at the same times.
+struct CentralState {
+  PetscInt step = 0, base_step = 0;                       ///< base_step: where the run of equal steps began
+  PetscReal time = 0, base_time = 0, dt = 0, dt_old = 0;  ///< s; dt of that run, dt_old of the last step taken
+};
+PetscErrorCode TSCentralGetState(TS ts, CentralState *state);
+/// Before TSSolve, when the end is known.
+PetscErrorCode TSCentralSetState(TS ts, const CentralState &state);
 /// dt of the last step taken (0 before the first).
 PetscErrorCode TSCentralGetLastStep(TS ts, PetscReal *dt);
 /// Says that v holds velocities half a step of dt before u; 0: velocities at the time of u.

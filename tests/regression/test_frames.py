@@ -4,7 +4,6 @@ import json
 import os
 import random
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -193,28 +192,6 @@ def check_whole(folder, file, t, box):
             assert np.isfinite(values[:]).all()
 
 
-def kill_run(run):
-    """SIGKILL to the program: to the children of mpirun first, if it is one, else they would go on for a while."""
-    children = []
-    if run.poll() is None:
-        with open(f"/proc/{run.pid}/task/{run.pid}/children") as file:
-            children = [int(pid) for pid in file.read().split()]
-    for pid in children:
-        os.kill(pid, signal.SIGKILL)
-    run.kill()
-    run.wait()
-    while any(is_running(pid) for pid in children):
-        time.sleep(0.01)
-
-
-def is_running(pid):
-    try:
-        with open(f"/proc/{pid}/stat") as file:
-            return file.read().rsplit(")", 1)[1].split()[0] not in "ZX"
-    except FileNotFoundError:
-        return False
-
-
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_killed_run_keeps_its_frames(tmp_path, ranks):
     """SIGKILL at some moment while frames are written without a pause; a reader looks on meanwhile."""
@@ -236,7 +213,7 @@ def test_killed_run_keeps_its_frames(tmp_path, ranks):
             while time.monotonic() < end:
                 check_whole(out, *listed(out)[-1], n)
         finally:
-            kill_run(run)
+            harness.kill(run)
         files = listed(out)
         assert [file for file, _ in files] == [f"fields_{i:06d}.hdf" for i in range(len(files))]
         for file, t in files:

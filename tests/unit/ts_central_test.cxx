@@ -20,7 +20,7 @@ struct Noting final : Stepper {
 
 class CentralTS : public testing::Test {
  protected:
-  void Run(const char *options, PetscInt batch = 0) {
+  void Run(const char *options, PetscInt batch = 0, const CentralState *start = nullptr) {
     ASSERT_PETSC(RegisterOnce());
     ASSERT_PETSC(PetscOptionsClear(nullptr));
     ASSERT_PETSC(PetscOptionsInsertString(nullptr, options));
@@ -29,6 +29,9 @@ class CentralTS : public testing::Test {
     ASSERT_PETSC(CreateTSCentral(PETSC_COMM_SELF, &stepper_, batch, u_, v_, &ts_));
     ASSERT_PETSC(TSMonitorSet(ts_, Monitor, this, nullptr));
     ASSERT_PETSC(TSSetFromOptions(ts_));
+    if (start) {
+      ASSERT_PETSC(TSCentralSetState(ts_, *start));
+    }
     ASSERT_PETSC(TSSolve(ts_, nullptr));
     ASSERT_PETSC(TSGetTime(ts_, &time_));
     ASSERT_PETSC(TSGetStepNumber(ts_, &steps_));
@@ -125,6 +128,48 @@ TEST_F(CentralTS, BatchesEndWhereSomebodyLooks) {
 TEST_F(CentralTS, TimeDoesNotDriftOverManySteps) {
   Run("-ts_max_time 1e9 -ts_dt 0.1 -ts_max_steps 1000000");
   EXPECT_EQ(time_, 1000000 * 0.1);
+}
+
+TEST_F(CentralTS, GoesOnAsIfItHadNotStopped) {
+  const double dt = 0.1;
+  CentralState start;  // after a run to 100 dt that has put its time onto its end
+  start.step = 100;
+  start.time = std::nextafter(100 * dt, 11.0);
+  start.dt = start.dt_old = dt;
+  Run("-ts_max_time 1e9 -ts_dt 0.1 -ts_max_steps 1200", 0, &start);
+  ASSERT_EQ(stepper_.plans.size(), 2u);
+  const StepPlan &first = stepper_.plans[0];
+  EXPECT_TRUE(first.first == 100 && first.base == 0 && first.offset == 100 && first.dt_old == dt)
+      << "no first kick again";
+  EXPECT_EQ(first.Time(5), 105 * dt);
+  EXPECT_EQ(time_, 1200 * dt);
+  EXPECT_EQ(seen_, (std::vector<PetscInt>{100, 1100, 1200}));
+}
+
+TEST_F(CentralTS, GoesOnAfterACutStepAndWithAnotherStep) {
+  CentralState start;  // three steps of 0.03 and one of 0.01
+  start.step = 4;
+  start.base_step = 3;
+  start.time = 0.1;
+  start.base_time = 0.09;
+  start.dt = start.dt_old = 0.01;
+  Run("-ts_max_time 0.22 -ts_dt 0.03 -ts_max_steps 1000000", 0, &start);
+  EXPECT_EQ(time_, 0.22);
+  ASSERT_EQ(stepper_.plans.size(), 1u);
+  const StepPlan &plan = stepper_.plans[0];
+  EXPECT_TRUE(plan.first == 4 && plan.offset == 0 && plan.dt == 0.03 && plan.dt_old == 0.01 && plan.n == 4);
+  EXPECT_NEAR(plan.base, 0.1, 1e-15);
+}
+
+TEST_F(CentralTS, NothingIsLeftToDoAtTheEnd) {
+  CentralState start;
+  start.step = 3;
+  start.time = 0.3;
+  start.dt = start.dt_old = 0.1;  // 3 * 0.1 is above 0.3
+  Run("-ts_max_time 0.3 -ts_dt 0.1 -ts_max_steps 1000000", 0, &start);
+  EXPECT_EQ(time_, 0.3);
+  EXPECT_EQ(seen_, (std::vector<PetscInt>{3}));
+  EXPECT_TRUE(stepper_.plans.empty());
 }
 
 }  // namespace

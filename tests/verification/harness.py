@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import signal
 import subprocess
 import time
 from pathlib import Path
@@ -37,6 +38,28 @@ def environment():
     env.setdefault("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
     env.setdefault("OMP_NUM_THREADS", "1")
     return env
+
+
+def kill(run):
+    """SIGKILL to the program: to the children of mpirun first, if it is one, else they would go on for a while."""
+    children = []
+    if run.poll() is None:
+        with open(f"/proc/{run.pid}/task/{run.pid}/children") as file:
+            children = [int(pid) for pid in file.read().split()]
+    for pid in children:
+        os.kill(pid, signal.SIGKILL)
+    run.kill()
+    run.wait()
+    while any(is_running(pid) for pid in children):
+        time.sleep(0.01)
+
+
+def is_running(pid):
+    try:
+        with open(f"/proc/{pid}/stat") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] not in "ZX"
+    except FileNotFoundError:
+        return False
 
 
 class Failed(AssertionError):
