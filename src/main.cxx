@@ -34,13 +34,14 @@ static PetscErrorCode Help(bool *shown) {
 }
 
 int main(int argc, char **argv) {
-  PetscErrorCode ierr = cdem::InstallErrorHandler();
+  PetscErrorCode ierr = cdem::InstallErrorHandler(argc, argv);
   if (!ierr) ierr = cdem::PrepareGpuMpi();
   if (!ierr) ierr = PetscInitialize(&argc, &argv, nullptr, kHelp);
   if (ierr) cdem::ExitOnError();
   cdem::RegisterLawOptions();
   bool shown = false;
   ierr = cdem::CheckArguments(argc, argv);
+  if (!ierr) ierr = cdem::CheckOptionFiles(argc, argv);
   if (!ierr) ierr = cdem::RegisterEvents();
   if (!ierr) ierr = cdem::RegisterTSCentral();
   if (!ierr) ierr = Help(&shown);

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/events.hpp"
 #include "forces/references.hpp"
+#include "io/viewer_check.hpp"
 #include "mesh/interfaces.hpp"
 #include "physics/laws.hpp"
 
@@ -63,6 +64,7 @@ PetscErrorCode Simulation::ReadInput() {
   CdemCheck(!batch_given_ || batch_ >= 1, comm_, "-ts_central_batch is %lld; it must be at least 1",
             static_cast<long long>(batch_));
   PetscCall(ReadRestart());
+  PetscCall(CheckViewers(comm_, output_dir_));
   Phase("mesh");
   PetscCall(PetscLogEventBegin(events.mesh, nullptr, nullptr, nullptr, nullptr));
   PetscCall(CreateMesh(comm_, options_, &mesh_));

@@ -1,6 +1,7 @@
 // The part of Simulation that belongs to a stage: its tables, its step, its TS, and the way to the next one.
 #include "core/error.hpp"
 #include "core/events.hpp"
+#include "core/petsc_refusal.hpp"
 #include "forces/references.hpp"
 #include "simulation.hpp"
 
@@ -103,7 +104,8 @@ PetscErrorCode Simulation::CreateTS(double dt_old) {
     PetscCall(PetscOptionsSetValue(nullptr, "-ts_max_steps", std::to_string(scene.end_step).c_str()));
   PetscCall(CreateTSCentral(comm_, this, batch_, u_, v_, &ts_));
   PetscCall(TSSetTimeStep(ts_, dt_));
-  PetscCall(TSSetFromOptions(ts_));
+  PetscCall(SetFromOptions(
+      comm_, "time stepper", [](void *ts) { return TSSetFromOptions(static_cast<TS>(ts)); }, ts_));
   PetscCall(TSMonitorSet(ts_, MonitorTS, this, nullptr));  // not one that -ts_monitor_cancel would remove
   TSType type;
   PetscCall(TSGetType(ts_, &type));

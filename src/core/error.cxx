@@ -8,6 +8,7 @@
 namespace cdem {
 
 static bool user_error = false;  // every rank stops at one; rank 0 says it
+static std::string option_files;
 
 static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
                                   PetscErrorType type, const char *message, void *ctx) {
@@ -19,7 +20,11 @@ static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function,
     MPI_Comm_rank(comm, &rank);
     if (rank == 0) {
       std::fflush(stdout);
-      std::fprintf(stderr, "cdem: error: %s\n", message);
+      // PETSc does not say which file its parser stumbled over
+      const bool hint =
+          !started && !option_files.empty() && std::string(message).find(option_files) == std::string::npos;
+      std::fprintf(stderr, "cdem: error: %s%s%s%s\n", message, hint ? "; the options are read from " : "",
+                   hint ? option_files.c_str() : "", hint ? ": look at its indentation, colons and brackets" : "");
       std::fflush(stderr);
     }
     return code;
@@ -28,8 +33,11 @@ static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function,
   return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, ctx);
 }
 
-PetscErrorCode InstallErrorHandler() {
+PetscErrorCode InstallErrorHandler(int argc, char **argv) {
   PetscFunctionBeginUser;
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::string(argv[i]) == "-options_file")
+      option_files += (option_files.empty() ? "" : " and ") + std::string(argv[i + 1]);
   PetscCall(PetscPushErrorHandler(HandleError, nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -8,7 +8,8 @@ namespace cdem {
 
 /// Installs the error handler: a CdemCheck failure prints "cdem: error: ..." once; anything else keeps PETSc's traceback.
 /// Before PetscInitialize has returned every failure is the user's (an options file that cannot be read) and prints so.
-PetscErrorCode InstallErrorHandler();
+/// Such a message names the options files of the command line.
+PetscErrorCode InstallErrorHandler(int argc = 0, char **argv = nullptr);
 
 /// Ends the program after a failed call: exit code 1, all ranks of PETSC_COMM_WORLD with it. Does not return.
 [[noreturn]] void ExitOnError();

@@ -74,6 +74,45 @@ PetscErrorCode Options::Raw(const OptionKey &key, std::vector<OptionType> types,
             given->spelled.c_str(), Expected(*spec).c_str());
   CdemCheck(given->set || asked || std::string(spec->fallback) != "required", comm_, "%s is needed: %s, %s",
             Spelled(key).c_str(), Expected(*spec).c_str(), spec->text);
+  if (named && everybodys) PetscCall(CheckEverybodys(key, *spec));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// What is given for everybody must make sense, also where this one has a value of its own.
+PetscErrorCode Options::CheckEverybodys(const OptionKey &key, const OptionSpec &spec) {
+  PetscFunctionBeginUser;
+  const OptionKey all(key.family, "", key.key);
+  std::string word;
+  std::vector<std::string> names;
+  double reals[3];
+  PetscInt ints[3];
+  bool flag, set;
+  switch (spec.type) {
+    case OptionType::kFlag:
+      PetscCall(Flag(all, &flag, &set));
+      break;
+    case OptionType::kInt:
+      PetscCall(Int(all, ints, &set));
+      break;
+    case OptionType::kReal:
+      PetscCall(Real(all, reals, &set));
+      break;
+    case OptionType::kReals:
+      PetscCall(Reals(all, 3, reals, &set));
+      break;
+    case OptionType::kInts:
+      PetscCall(Ints(all, 3, ints, &set));
+      break;
+    case OptionType::kWord:
+      PetscCall(Word(all, &word, &set));
+      break;
+    case OptionType::kNames:
+      PetscCall(Names(all, &names, &set));
+      break;
+    case OptionType::kText:
+    case OptionType::kViewer:
+      break;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,7 +120,7 @@ bool ParseReal(const std::string &word, double *value) {
   char *end = nullptr;
   if (word.empty() || std::isspace(static_cast<unsigned char>(word[0]))) return false;
   *value = std::strtod(word.c_str(), &end);
-  return *end == '\0' && std::isfinite(*value);
+  return end == word.c_str() + word.size() && std::isfinite(*value);  // a zero byte inside is no end
 }
 
 /// An integer, which may be written as 1e6.

@@ -85,6 +85,7 @@ class Options {
   struct Given;
   PetscErrorCode Find(const std::string &name, bool *set, const char **value, std::string *spelled);
   PetscErrorCode Raw(const OptionKey &key, std::vector<OptionType> types, bool asked, Given *given);
+  PetscErrorCode CheckEverybodys(const OptionKey &key, const OptionSpec &spec);
   PetscErrorCode Count(const Given &given, int n, std::vector<std::string> *words);
   PetscErrorCode Choice(const Given &given, const std::string &word);
   PetscErrorCode CheckNames();
@@ -101,6 +102,9 @@ bool ParseReal(const std::string &word, double *value);
 
 /// Error for words on the command line that belong to no option (PETSc would ignore them).
 PetscErrorCode CheckArguments(int argc, char **argv);
+
+/// Error for a YAML file of options with more than one document (PETSc would ignore all but the first).
+PetscErrorCode CheckOptionFiles(int argc, char **argv);
 
 /// Prints the registry as -help does (all families, units, defaults), or as the Markdown page docs/options.md.
 PetscErrorCode PrintOptions(MPI_Comm comm, bool markdown);

@@ -179,6 +179,7 @@ PetscErrorCode ReadGmsh(MPI_Comm comm, const std::string &path, MeshSource *sour
   PetscCall(PetscRead(comm, path, multiple_tags, source));
   PetscCall(LabelPointSets(scan, source));
   source->cell_number = std::move(scan.cell_number);
+  source->surface_corners = std::move(scan.surface_corners);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

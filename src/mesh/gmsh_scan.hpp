@@ -23,6 +23,8 @@ struct GmshScan {
   std::map<GmshKey, std::string> names;                  ///< $PhysicalNames as they are
   std::map<GmshKey, std::int64_t> elements;              ///< groups with elements, and how many
   std::map<GmshKey, std::vector<std::int64_t>> corners;  ///< of lines (pairs) and points: vertices as PETSc counts them
+  std::map<int, std::int64_t>
+      surface_corners;                    ///< of surface groups: corners of their different elements, all together
   std::vector<std::int64_t> cell_number;  ///< the file's numbers of tetrahedra, hexahedra, wedges, in turn
   std::int64_t ungrouped = 0;             ///< volume elements in no group
   std::int64_t orphans = 0;               ///< nodes in no volume element

@@ -7,8 +7,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <type_traits>
 
 namespace cdem {
+
+static bool IsSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 GmshText::GmshText(const std::string &path) {
   std::error_code error;
@@ -31,10 +34,13 @@ void GmshText::ReadFormat() {
   }
   const std::string line = Line();
   double version = 0;
-  int binary = 0, size = 0;
-  if (std::sscanf(line.c_str(), "%lf %d %d", &version, &binary, &size) != 3) Fail("has a broken header: " + line);
-  version_ = static_cast<int>(10 * version + 0.5);
-  if (version_ != 22 && version_ != 41) {
+  int binary = 0, size = 0, length = 0;
+  if (std::sscanf(line.c_str(), "%lf %d %d%n", &version, &binary, &size, &length) != 3 ||
+      line.c_str()[length] != '\0' || binary < 0 || binary > 1) {
+    Fail("has a broken header: " + line.substr(0, 40));
+  }
+  version_ = version == 2.2 ? 22 : version == 4.1 ? 41 : 0;
+  if (version_ == 0) {
     Fail("is of format " + line.substr(0, line.find(' ')) + "; save it as 4.1 or 2.2 (gmsh -format msh41)");
   }
   if (size != 8) Fail("is written with sizes of " + std::to_string(size) + " bytes; save it again with a current gmsh");
@@ -81,8 +87,24 @@ std::string GmshText::Line() {
 
 std::int64_t GmshText::LineInt() {
   const std::int64_t n = Parsed<std::int64_t>();
-  Line();
+  while (at_ < end_ && (*at_ == ' ' || *at_ == '\t')) ++at_;
+  const std::string rest = Line();
+  if (!rest.empty()) Fail("is corrupt: '" + rest.substr(0, 40) + "' behind the number at the start of $" + section_);
   return n;
+}
+
+std::int64_t GmshText::Int() {
+  if (binary_) return Raw<std::int32_t>();
+  const std::int64_t n = Parsed<std::int64_t>();
+  if (n != static_cast<std::int32_t>(n))
+    Fail("holds a number beyond 32 bits in $" + section_ + ": " + std::to_string(n));
+  return n;
+}
+
+void GmshText::CheckTotal(std::int64_t announced, std::int64_t there, const char *things) const {
+  if (announced == there) return;
+  Fail("is corrupt: $" + section_ + " announces " + std::to_string(announced) + " " + things + " and holds " +
+       std::to_string(there));
 }
 
 std::int64_t GmshText::Count(std::int64_t n) const {
@@ -91,7 +113,7 @@ std::int64_t GmshText::Count(std::int64_t n) const {
 }
 
 void GmshText::SkipSpace() {
-  while (at_ < end_ && (*at_ == ' ' || (*at_ >= '\t' && *at_ <= '\r'))) ++at_;
+  while (at_ < end_ && IsSpace(*at_)) ++at_;
 }
 
 void GmshText::Truncated() const {
@@ -113,9 +135,10 @@ T GmshText::Parsed() {
   SkipSpace();
   if (at_ < end_ && *at_ == '+') ++at_;
   const std::from_chars_result result = std::from_chars(at_, end_, value);
-  if (result.ec == std::errc::result_out_of_range) {  // a denormal, say: what strtod makes of it
-    value = static_cast<T>(std::strtod(at_, nullptr));
-  } else if (result.ec != std::errc()) {
+  const bool ends = result.ptr == end_ || IsSpace(*result.ptr);  // not 1.5 for a whole number
+  if (result.ec == std::errc::result_out_of_range && ends && std::is_floating_point_v<T>) {
+    value = static_cast<T>(std::strtod(at_, nullptr));  // a denormal, say
+  } else if (result.ec != std::errc() || !ends) {
     if (at_ >= end_ || *at_ == '$') Truncated();
     Fail("is corrupt: a number is expected in $" + section_ + " where there is '" +
          std::string(at_, std::min<std::ptrdiff_t>(end_ - at_, 20)) + "'");

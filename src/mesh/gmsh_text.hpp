@@ -20,11 +20,14 @@ class GmshText {
 
   std::string Line();      ///< the rest of the line
   std::int64_t LineInt();  ///< a number on a line of its own, text in binary files too
-  std::int64_t Int() { return binary_ ? Raw<std::int32_t>() : Parsed<std::int64_t>(); }
+  std::int64_t Int();      ///< of 32 bits, in text too
   std::int64_t Size() { return binary_ ? Raw<std::int64_t>() : Parsed<std::int64_t>(); }
   double Real() { return binary_ ? Raw<double>() : Parsed<double>(); }
-  /// Checks a number of things to come against what is left of the file.
+  /// A number of things to come, each of at least a byte: checked against what is left of the file.
   std::int64_t Count(std::int64_t n) const;
+  std::int64_t Count() { return Count(Size()); }
+  /// An error unless so many things were announced as there are.
+  void CheckTotal(std::int64_t announced, std::int64_t there, const char *things) const;
 
   [[noreturn]] void Fail(const std::string &what) const { throw GmshError(what); }
 

@@ -2,9 +2,11 @@
 
 #include "core/error.hpp"
 #include "core/options.hpp"
+#include "core/petsc_refusal.hpp"
 #include "mesh/source.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace cdem {
@@ -61,6 +63,35 @@ PetscErrorCode BroadcastText(MPI_Comm comm, std::string *text) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+// -dm_refine, which PETSc reads: so many times that the cells still have numbers.
+static PetscErrorCode CheckRefinement(MPI_Comm comm, PetscInt cells) {
+  PetscFunctionBeginUser;
+  char text[64] = "";
+  PetscBool given;
+  double times = 0, all = static_cast<double>(cells);
+  PetscCall(PetscOptionsGetString(nullptr, nullptr, "-dm_refine", text, sizeof text, &given));
+  if (!given) PetscFunctionReturn(PETSC_SUCCESS);
+  CdemCheck(ParseReal(text, &times) && times >= 0 && times == std::floor(times), comm,
+            "-dm_refine is '%s'; give a whole number, how often the mesh is refined (each time 8 cells of one)", text);
+  PetscCallMPI(MPI_Bcast(&all, 1, MPI_DOUBLE, 0, comm));  // the serial mesh has its cells on rank 0
+  all *= std::pow(8, times);
+  CdemCheck(24 * all < static_cast<double>(PETSC_INT_MAX), comm,
+            "-dm_refine %s makes %.3g cells, too many for a PETSc with %d-bit integers", text, all,
+            static_cast<int>(8 * sizeof(PetscInt)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode CheckPartitioner(MPI_Comm comm) {
+  PetscFunctionBeginUser;
+  char type[64] = "";
+  PetscBool given;
+  void (*found)(void) = nullptr;
+  PetscCall(PetscOptionsGetString(nullptr, nullptr, "-petscpartitioner_type", type, sizeof type, &given));
+  if (given) PetscCall(PetscFunctionListFind(PetscPartitionerList, type, &found));
+  CdemCheck(!given || found, comm, "-petscpartitioner_type: this PETSc has no partitioner '%s'; try simple", type);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 // PETSc's own options for meshes (-dm_refine, -dm_plex_scale, ...) act on the serial mesh: numbers must not depend on ranks.
 static PetscErrorCode ApplyPetscOptions(MeshSource *source) {
   PetscFunctionBeginUser;
@@ -68,8 +99,11 @@ static PetscErrorCode ApplyPetscOptions(MeshSource *source) {
   MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(source->dm));
   PetscCall(DMPlexGetHeightStratum(source->dm, 0, &cells[0], &cells[1]));
   const PetscInt before = cells[1] - cells[0];
+  PetscCall(CheckRefinement(comm, before));
+  PetscCall(CheckPartitioner(comm));
   PetscCall(DMPlexDistributeSetDefault(source->dm, PETSC_FALSE));
-  PetscCall(DMSetFromOptions(source->dm));
+  PetscCall(SetFromOptions(
+      comm, "meshes", [](void *dm) { return DMSetFromOptions(static_cast<DM>(dm)); }, source->dm));
 
   PetscBool distributed, reordered;
   PetscCall(DMPlexIsDistributed(source->dm, &distributed));

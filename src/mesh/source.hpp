@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,13 @@ struct Group {
 inline constexpr char kPointLabel[] = "cdem point sets";
 
 struct MeshSource {
-  DM dm = nullptr;                        ///< interpolated, all of it on rank 0
-  std::string what;                       ///< for messages: "mesh box" or "mesh 'file.msh'"
-  std::string hint;                       ///< what to do about a bad element
-  std::vector<Group> groups;              ///< sorted by dimension (3 first) and tag, the same on all ranks
-  std::vector<std::int64_t> cell_number;  ///< rank 0: numbers of the cells in the file; empty when there are none
-  std::vector<std::string> remarks;       ///< the same on all ranks
+  DM dm = nullptr;                              ///< interpolated, all of it on rank 0
+  std::string what;                             ///< for messages: "mesh box" or "mesh 'file.msh'"
+  std::string hint;                             ///< what to do about a bad element
+  std::vector<Group> groups;                    ///< sorted by dimension (3 first) and tag, the same on all ranks
+  std::vector<std::int64_t> cell_number;        ///< rank 0: numbers of the cells in the file; empty when there are none
+  std::map<int, std::int64_t> surface_corners;  ///< rank 0: as in GmshScan
+  std::vector<std::string> remarks;             ///< the same on all ranks
 };
 
 /// The box that the -mesh_box options describe: cells numbered along x, then y, then z.

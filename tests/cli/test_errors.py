@@ -193,6 +193,16 @@ OPTIONS = {
     # machine
     "unknown device": ({"device": "gpu"}, ["-device", "gpu", "cuda"]),
     "step above the bound": ({"ts_dt": 1.0}, ["-ts_dt", "bound", "-ts_central_check"]),
+    "monitor that is no viewer": ({"monitor_energy": "printer"}, ["-monitor_energy printer", "ascii:FILE"]),
+    "monitor into a folder that is not there": ({"monitor_energy": "ascii:no/energy.txt"}, ["no/energy.txt", "no folder"]),
+    "format that no viewer has": ({"ts_view": "ascii:view.txt:fancy"}, ["-ts_view", "'fancy'"]),
+    "TS's monitor that is no viewer": ({"ts_monitor": "x"}, ["-ts_monitor x"]),
+    "partitioner that is not there": ({"petscpartitioner_type": "magic"}, ["-petscpartitioner_type", "magic"]),
+    "type of stepping that PETSc has not": ({"ts_type": "foo"}, ["time stepper", "foo"]),
+    "scale of the mesh that is no number": ({"dm_plex_scale": "x"}, ["meshes", "string x"]),
+    "refinement that is no number": ({"dm_refine": "twice"}, ["-dm_refine", "twice"]),
+    "refinement without end": ({"dm_refine": 30}, ["-dm_refine 30", "cells"]),
+    "nonsense for all, though nobody needs it": ({"block_box_young": 1e9, "block_young": "x"}, ["-block_young", "'x'"]),
     "output is a file": ({"output": "scene.txt"}, ["scene.txt"]),
 }
 
@@ -342,6 +352,7 @@ JOINT_FILES = {
     "dip of 91": ("1 1 1 91 120 5\n", ["line 1 of bad.txt", "dip", "91"]),
     "diameter of 0": (DISC + DISC + "1 1 1 30 120 0\n", ["line 3 of bad.txt", "diameter"]),
     "empty": ("", ["bad.txt"]),
+    "zero bytes": ("1 1 1 30 120 5\0\0\n", ["line 1 of bad.txt", "finite number"]),
     "comments only": ("# x y z\n", ["bad.txt", "x y z dip"]),
     "outside": ("9 9 9 0 0 1\n", ["bad.txt", "no disc", "'j'"]),
 }
@@ -414,6 +425,25 @@ def test_non_finite_run_stops_with_step_and_place(tmp_path):
     message = text[text.index("cdem: error:"):].lower()
     for word in ("unstable", "in step", "node at ("):
         assert word in message, message
+
+
+@pytest.mark.parametrize("mark", ["---", "...", "--- # more"])
+def test_second_document_of_a_scene(mark, tmp_path):
+    """PETSc reads the first document of a YAML file only."""
+    rows = [f"{key}: {harness.as_text(value)}" for key, value in changed({}).items()]
+    (tmp_path / "scene.yaml").write_text("\n".join(["# one", "---"] + rows[:4] + [mark] + rows[4:]) + "\n")
+    done = subprocess.run([harness.program(), "-options_file", "scene.yaml"], cwd=tmp_path, env=harness.environment(),
+                          text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+    assert done.returncode == 1 and done.stderr.count("cdem: error:") == 1, text_of(done)
+    assert "scene.yaml" in done.stderr, text_of(done)
+    assert os.listdir(tmp_path) == ["scene.yaml"]
+
+
+def test_broken_yaml_names_its_file(tmp_path):
+    (tmp_path / "scene.yaml").write_text("mesh: box\nblock: {young: 1.0e9\n")
+    done = subprocess.run([harness.program(), "-options_file", "scene.yaml"], cwd=tmp_path, env=harness.environment(),
+                          text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+    assert done.returncode == 1 and done.stderr.count("cdem: error:") == 1 and "scene.yaml" in done.stderr, text_of(done)
 
 
 def test_missing_options_file(tmp_path):

@@ -212,6 +212,64 @@ TEST(MeshError, SurfacesThatAreNotOfTheMesh) {
   EXPECT_NE(ErrorOfFile(Msh().Elements({"4 2 1 1 1 2 3 4", "4 2 1 1 1 3 2 5", "3 2 2 1 1 2 3 4"}).Text()), "");
 }
 
+// A triangle over half a quadrilateral is no face: PETSc's reader would label the whole face.
+TEST(MeshError, HalfAFaceAsASurface) {
+  const std::vector<std::string> cube{"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
+  const std::string hex = "5 2 1 1 1 2 3 4 5 6 7 8";
+  EXPECT_SAYS(ErrorOfFile(Msh().Nodes(cube).Elements({hex, "2 2 2 1 1 2 3"}).Text()),
+              "elements of surface 'surface_2'");
+  EXPECT_EQ(ErrorOfFile(Msh().Nodes(cube).Elements({hex, "3 2 2 1 1 2 3 4", "3 2 2 1 4 3 2 1"}).Text()), "");
+}
+
+TEST(MeshError, TagsThatLabelsCannotHold) {
+  const std::string tet = "4 2 1 1 1 2 3 4";
+  EXPECT_SAYS(ErrorOfFile(Msh().Elements({"4 2 -1 1 1 2 3 4", "4 2 -1 1 1 3 2 5"}).Text()), "the physical group -1");
+  EXPECT_SAYS(ErrorOfFile(Msh().Elements({tet, "2 2 -1 1 1 2 3"}).Text()), "element 20 is in the physical group -1");
+  EXPECT_EQ(ErrorOfFile(Msh().Elements({tet, "2 2 -2 1 1 2 3"}).Text()), "");
+}
+
+TEST(MeshError, Numbers) {
+  const auto spoilt = [](std::string text, const std::string &old, const std::string &by) {
+    return ErrorOfFile(text.replace(text.find(old), old.size(), by));
+  };
+  const std::string text = Msh().Names("3 1 \"rock\"\n").Text();
+  EXPECT_EQ(ErrorOfFile(text), "");
+  EXPECT_SAYS(spoilt(text, "2.2 0 8", "2.24 0 8"), "save it as 4.1 or 2.2");
+  EXPECT_SAYS(spoilt(text, "2.2 0 8", "2.2 2 8"), "broken header");
+  EXPECT_SAYS(spoilt(text, "2.2 0 8", "2.2 0 8 1"), "broken header");
+  EXPECT_SAYS(spoilt(text, "3 1 \"rock\"", "3 1e0 \"rock\""), "a line in $PhysicalNames");
+  EXPECT_SAYS(spoilt(text, "$Nodes\n5", "$Nodes\n5 6"), "'6' behind the number");
+  EXPECT_SAYS(spoilt(text, "$Nodes\n5", "$Nodes\n9223372036854775808"), "a number is expected");
+  EXPECT_SAYS(spoilt(text, "10 4 2 1 1 1 2 3 4", "10 4 2 4294967297 1 1 2 3 4"),
+              "beyond 32 bits in $Elements: 4294967297");
+  EXPECT_SAYS(spoilt(text, "10 4 2 1 1 1 2 3 4", "10 4 2 1.5 1 1 2 3 4"), "a number is expected");
+  EXPECT_SAYS(spoilt(text, "$Nodes", "$Periodic\n0\n$EndPeriodic\n$Nodes"), "the section $Periodic where it cannot be");
+  EXPECT_EQ(spoilt(text, "$Nodes", "$Comments\n$Nodes 7\n$EndComments\n$Nodes"), "");
+}
+
+TEST(MeshError, NumbersOfFormat41) {
+  std::ifstream in(MeshFolder() + "/mixed_41a.msh");
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  const auto spoilt = [&](const std::string &old, const std::string &by) {
+    std::string text = whole;
+    return ErrorOfFile(text.replace(text.find(old), old.size(), by));
+  };
+  EXPECT_SAYS(spoilt("13 24 15 3", "13 -24 15 3"), "is truncated");
+  EXPECT_SAYS(spoilt("13 24 15 3", "999999999999 24 15 3"), "is truncated");
+  EXPECT_SAYS(spoilt("\n2 1 0 0 0 \n", "\n1 1 0 0 0 \n"), "describes the point 1 twice");
+  const std::size_t nodes = whole.find("$Nodes\n") + 7, elements = whole.find("$Elements\n") + 10;
+  const auto head = [&](std::size_t at) { return whole.substr(at, whole.find('\n', at) - at); };
+  const auto more = [](const std::string &line) {  // one more in all
+    std::istringstream words(line);
+    std::int64_t n[4];
+    for (std::int64_t &k : n) words >> k;
+    return std::to_string(n[0]) + " " + std::to_string(n[1] + 1) + " " + std::to_string(n[2]) + " " +
+           std::to_string(n[3]);
+  };
+  EXPECT_SAYS(spoilt("$Nodes\n" + head(nodes), "$Nodes\n" + more(head(nodes))), "$Nodes announces");
+  EXPECT_SAYS(spoilt("$Elements\n" + head(elements), "$Elements\n" + more(head(elements))), "$Elements announces");
+}
+
 TEST(MeshFile, NamesAndRemarksWithoutGroups) {
   const TemporaryFile file(
       Msh()
