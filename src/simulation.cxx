@@ -76,7 +76,7 @@ PetscErrorCode Simulation::ReadInput() {
   Phase("scene");
   PetscCall(SelectInterfaces(mesh_, options_, joint_faces, &interface_names_, &face_interface_));
   PetscCall(ReadScenes(options_, mesh_, interface_names_, &scenes_, &remarks_));
-  CdemCheck(!Staged() && !Now().relax || (!checkpoints_.Active() && restart_file_.empty()), comm_,
+  CdemCheck((!Staged() && !Now().relax) || (!checkpoints_.Active() && restart_file_.empty()), comm_,
             "checkpoints and -restart are for dynamic runs without stages so far: take -checkpoint_interval out");
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -84,7 +84,7 @@ PetscErrorCode Options::CheckEverybodys(const OptionKey &key, const OptionSpec &
   const OptionKey all(key.family, "", key.key);
   std::string word;
   std::vector<std::string> names;
-  double reals[3];
+  double reals[6];
   PetscInt ints[3];
   bool flag, set;
   switch (spec.type) {
@@ -99,6 +99,9 @@ PetscErrorCode Options::CheckEverybodys(const OptionKey &key, const OptionSpec &
       break;
     case OptionType::kReals:
       PetscCall(Reals(all, 3, reals, &set));
+      break;
+    case OptionType::kTensor:
+      PetscCall(Reals(all, 6, reals, &set));
       break;
     case OptionType::kInts:
       PetscCall(Ints(all, 3, ints, &set));

@@ -136,7 +136,7 @@ Sum OfTables(const std::vector<TimeTable> &tables) {
 
 Sum OfBody(const Tables &t) {
   Sum h = 9;
-  for (double value : {t.gravity[0], t.gravity[1], t.gravity[2], t.alpha, t.beta}) h = MixReal(h, value);
+  for (double value : {t.gravity[0], t.gravity[1], t.gravity[2], t.beta}) h = MixReal(h, value);
   return MixBits(h, t.releases);
 }
 

@@ -107,7 +107,7 @@ TEST(SharpStep, OperatorSeesTheElasticPartOfEveryLaw) {
         Material &m = body.materials[0];
         m.law = BlockLaws::Find(law);
         m.property[0] = 1e10, m.property[1] = 0.25;  // and strengths of 0: anything would fail
-        DeriveBlock(m.law, m.property, 1, m.param);
+        DeriveBlock(m, m.property, 1, m.param);
         body.joints[0].law = JointLaws::Find(joint);
         body.joints[0].broken = std::string(joint) != "elastic";
         body.Build();
