@@ -1,6 +1,7 @@
 #include "scene.hpp"
 
 #include "core/error.hpp"
+#include "loads/quiet.hpp"
 #include "mesh/interfaces.hpp"
 
 #include <algorithm>
@@ -144,6 +145,7 @@ PetscErrorCode ReadScenes(Options &options, const Mesh &mesh, const std::vector<
     scene.strength_factor = before.strength_factor;
     if (staged) options.SetStages({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i) + 1});
     PetscCall(ReadScene(options, mesh, interfaces, &scene, &said));
+    if (i == 0) RemarkUnheldWeight(scene.boundaries, scene.gravity, &said);
     scenes->push_back(scene);
     before = scene;
   }

@@ -33,4 +33,18 @@ int FaceDashpots(const Mesh &mesh, const Nodes &nodes, const std::vector<Materia
   return size;
 }
 
+void RemarkUnheldWeight(const std::vector<Boundary> &boundaries, const double *gravity,
+                        std::vector<std::string> *remarks) {
+  std::string sinks;
+  for (int k = 0; k < 3; ++k) {
+    const auto holds = [&](const Boundary &b) { return b.kind[k] != kFree; };
+    if (gravity[k] != 0 && std::none_of(boundaries.begin(), boundaries.end(), holds))
+      sinks += static_cast<char>('x' + k);
+  }
+  const auto quiet = std::find_if(boundaries.begin(), boundaries.end(), [](const Boundary &b) { return b.quiet; });
+  if (quiet == boundaries.end() || sinks.empty()) return;
+  remarks->push_back("no boundary holds the weight along " + sinks + ": the dashpots of the quiet boundary '" +
+                     quiet->name + "' hold nothing at rest, so the body sinks");
+}
+
 }  // namespace cdem

@@ -1,5 +1,6 @@
 // Quiet boundaries: dashpots that take up waves, and the plane wave that may come in through them.
 #pragma once
+#include "loads/boundary.hpp"
 #include "mesh/split.hpp"
 #include "physics/materials.hpp"
 
@@ -16,5 +17,9 @@ struct Dashpot {
 /// number. Source: Lysmer and Kuhlemeyer, Finite dynamic model for infinite media, 1969.
 int FaceDashpots(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials, const Face &face,
                  int side, Dashpot *dashpots);
+
+/// Remarks on a weight that nothing but dashpots holds: the body sinks. [in] gravity: [3] m/s^2.
+void RemarkUnheldWeight(const std::vector<Boundary> &boundaries, const double *gravity,
+                        std::vector<std::string> *remarks);
 
 }  // namespace cdem

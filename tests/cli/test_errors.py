@@ -317,6 +317,14 @@ def test_good_mesh_is_accepted(tmp_path):
     assert done.returncode == 0, text_of(done)
 
 
+@pytest.mark.parametrize("held, said", [("z", False), ("xy", True)])
+def test_weight_on_dashpots_is_said(held, said, tmp_path):
+    done = harness.call(tmp_path, changed({"boundaries": ("zmin", "xmin"), "boundary_zmin_fix": DROP, "boundary_zmin_quiet": None,
+                                           "boundary_xmin_fix": held}))
+    assert done.returncode == 0, text_of(done)
+    assert said == ("holds the weight along z" in text_of(done)), text_of(done)
+
+
 def test_histories_without_a_folder_are_said(tmp_path):
     done = harness.call(tmp_path, changed({"output": DROP, "histories": "top", "history_top_at": (1, 1, 2),
                                            "history_top_of": "displacement_z"}))
