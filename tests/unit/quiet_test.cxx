@@ -50,6 +50,32 @@ TEST(Quiet, DashpotsOfAPlaneAddUp) {
   }
 }
 
+// A face between two materials: each side has the impedances of its own element, at its own nodes. Regions that leave make
+// such faces the boundary.
+TEST(Quiet, DashpotsAreThoseOfTheElementBehind) {
+  Body body;
+  body.Make("-mesh box -mesh_box_cells 2,1,1 -mesh_box_size 2,1,1");
+  body.mesh.cell_region[1] = 1;
+  body.materials.push_back(MakeMaterial(3e9, 0.3, 1700));
+  body.SplitAll();
+  body.Build();
+  int sides = 0;
+  for (const Face &face : body.mesh.faces)
+    for (int side = 0; face.cell[1] >= 0 && side < 2; ++side, ++sides) {
+      Dashpot d[4];
+      ASSERT_EQ(FaceDashpots(body.mesh, body.nodes, body.materials, face, side, d), 4);
+      const Material &m = body.materials[body.mesh.cell_region[face.cell[side]]];
+      const double p = std::sqrt(m.density * (m.lambda() + 2 * m.mu())), q = std::sqrt(m.density * m.mu());
+      const PetscInt *corner = body.nodes.Corners(face.cell[side]);
+      for (const Dashpot &dashpot : d) {
+        EXPECT_NE(std::find(corner, corner + 8, dashpot.node), corner + 8);
+        const double exact[6] = {p / 4, q / 4, q / 4, 0, 0, 0};
+        for (int k = 0; k < 6; ++k) EXPECT_NEAR(dashpot.c[k], exact[k], 1e-12 * p) << "side " << side << " " << k;
+      }
+    }
+  EXPECT_EQ(sides, 2);
+}
+
 /// Solves A x = b with pivots [3][3].
 void Eliminate(double a[3][4]) {
   for (int k = 0; k < 3; ++k) {
