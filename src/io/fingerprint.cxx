@@ -102,12 +102,13 @@ Sum OfSprings(const Mesh &mesh, const Nodes &nodes, const Tables &tables, std::i
   return sum;
 }
 
-/// What is prescribed and what loads, node by node.
+/// What is prescribed, what absorbs and what loads, node by node.
 Sum OfBoundaries(const Nodes &nodes, const NodeRecords &r) {
   Sum sum = 0;
   for (std::size_t i = 0; i < r.of_node.size(); ++i) {
     const int row = r.of_node[i];
-    if (row < 0 || (r.kind[row] == 0 && r.load_start[row] == r.load_start[row + 1])) continue;  // only watched
+    const int quiet = row < 0 || r.quiet.empty() ? -1 : r.quiet[row];
+    if (row < 0 || (r.kind[row] == 0 && quiet < 0 && r.load_start[row] == r.load_start[row + 1])) continue;  // watched
     Sum h = MixBits(MixBits(7, static_cast<Sum>(nodes.global[i])), r.kind[row]);
     for (int k = 0; k < 3; ++k)
       if ((r.kind[row] >> (2 * k) & 3) != kFree)
@@ -116,6 +117,7 @@ Sum OfBoundaries(const Nodes &nodes, const NodeRecords &r) {
       h = MixBits(h, static_cast<Sum>(r.load_table[l]));
       for (int k = 0; k < 3; ++k) h = MixReal(h, r.load[3 * static_cast<std::size_t>(l) + k]);
     }
+    for (int k = 0; quiet >= 0 && k < 6; ++k) h = MixReal(h, r.dashpot[6 * static_cast<std::size_t>(quiet) + k]);
     sum += h;
   }
   return sum;

@@ -270,6 +270,7 @@ REFUSED = [
     ({"interface_faces_law": "elastic", "interface_faces_tension": None}, ""),
     ({"boundary_zmax_pressure": 1e4}, "-boundary_zmax_pressure was 20000.0 and is 10000.0 now"),
     ({"boundary_zmin_fix": "y"}, "-boundary_zmin_fix was not given and is y now"),
+    ({"boundary_zmax_quiet": "true"}, "-boundary_zmax_quiet was not given and is true now"),
     ({"seed": 99}, "-seed was"),
     ({"damping_alpha": 77.0}, "-damping_alpha was"),
     ({"gravity": (0, 0, -9.8)}, "-gravity was 0,0,-9.81 and is 0,0,-9.8 now"),
