@@ -2,6 +2,7 @@
 #include "core/error.hpp"
 #include "core/options.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 namespace cdem {
@@ -33,18 +34,31 @@ static int SecondDocument(const std::string &path) {
   return 0;
 }
 
+/// The number of the first line of `-option value` with a quote that does not end before a comment; 0 if there is none.
+static int OpenQuote(const std::string &path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    line = line.substr(0, line.find('#'));  // PETSc takes it for a comment between quotes, too
+    if (std::count(line.begin(), line.end(), '"') % 2 != 0) return number;
+  }
+  return 0;
+}
+
 PetscErrorCode CheckOptionFiles(int argc, char **argv) {
   PetscFunctionBeginUser;
   PetscMPIInt rank;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   for (int i = 1; i + 1 < argc; ++i) {
     const std::string path = argv[i + 1];
-    if (std::string(argv[i]) != "-options_file" || !IsYaml(path)) continue;
-    const int line = rank == 0 ? SecondDocument(path) : 0;
-    PetscCall(CheckFailure(PETSC_COMM_WORLD,
-                           line == 0 ? ""
-                                     : "line " + std::to_string(line) + " of " + path +
-                                           " begins a second document, which is not read: take out '---' and '...'"));
+    if (std::string(argv[i]) != "-options_file") continue;
+    std::string wrong;
+    if (const int line = rank != 0 ? 0 : IsYaml(path) ? SecondDocument(path) : OpenQuote(path)) {
+      wrong = "line " + std::to_string(line) + " of " + path +
+              (IsYaml(path) ? " begins a second document, which is not read: take out '---' and '...'"
+                            : " has a quote without its end (what follows a '#' is a comment)");
+    }
+    PetscCall(CheckFailure(PETSC_COMM_WORLD, wrong));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

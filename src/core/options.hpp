@@ -103,7 +103,8 @@ bool ParseReal(const std::string &word, double *value);
 /// Error for words on the command line that belong to no option (PETSc would ignore them).
 PetscErrorCode CheckArguments(int argc, char **argv);
 
-/// Error for a YAML file of options with more than one document (PETSc would ignore all but the first).
+/// Error for a YAML file of options with more than one document (PETSc would ignore all but the first), and for a quote
+/// without an end in a file of another kind.
 PetscErrorCode CheckOptionFiles(int argc, char **argv);
 
 /// Prints the registry as -help does (all families, units, defaults), or as the Markdown page docs/options.md.

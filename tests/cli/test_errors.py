@@ -447,6 +447,10 @@ def test_second_document_of_a_scene(mark, tmp_path):
     assert os.listdir(tmp_path) == ["scene.yaml"]
 
 
+def test_quote_without_an_end(tmp_path):
+    assert_refused(tmp_path, changed({"output": '"out'}), ["line", "scene.txt", "quote"])
+
+
 def test_broken_yaml_names_its_file(tmp_path):
     (tmp_path / "scene.yaml").write_text("mesh: box\nblock: {young: 1.0e9\n")
     done = subprocess.run([harness.program(), "-options_file", "scene.yaml"], cwd=tmp_path, env=harness.environment(),
