@@ -8,8 +8,9 @@
 
 namespace cdem {
 
-/// Steps between two looks at the kinetic energy, in kinetic damping.
-static constexpr PetscInt kPeakInterval = 5;
+/// Steps between two looks at the kinetic energy, in kinetic damping. Looking every few steps only, a mode whose period is
+/// a multiple of that is always stopped where it began, and never ends.
+static constexpr PetscInt kPeakInterval = 1;
 
 /// Steps until the controller looks again.
 PetscInt Simulation::StepsToCheck(PetscInt step) const {

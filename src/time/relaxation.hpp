@@ -13,8 +13,8 @@ enum class RelaxDamping { kLocal, kKinetic, kRayleigh, kCombined };
 
 struct RelaxPlan {
   RelaxDamping damping = RelaxDamping::kRayleigh;
-  double ratio = 1e-6;     ///< unbalanced force ratio at which it is converged
-  double kinetic = 1e-10;  ///< and the kinetic energy, over its peak
+  double ratio = 1e-7;     ///< unbalanced force ratio at which it is converged
+  double kinetic = 1e-12;  ///< and the kinetic energy, over its peak
   bool scaling = true;     ///< of the density, so that every node runs at one step
   PetscInt max_steps = 1000000, interval = 100;
 };
