@@ -99,21 +99,15 @@ PetscErrorCode Simulation::CheckBalance(PetscInt step) {
 
 PetscErrorCode Simulation::ReportImbalance() {
   PetscFunctionBeginUser;
-  struct {
-    double size;
-    int rank;
-  } mine = {0, 0}, most;
-  double x[3] = {0, 0, 0};
+  double largest = 0, x[3] = {0, 0, 0};
   for (int i = 0; i < tables_.n_owned; ++i) {
     const double *force = &last_residual_[3 * static_cast<std::size_t>(i)];
     const double size = std::sqrt(Dot(force, force));
-    if (size <= mine.size) continue;
-    mine.size = size;
+    if (size <= largest) continue;
+    largest = size;
     std::copy_n(&tables_.x[3 * static_cast<std::size_t>(i)], 3, x);
   }
-  PetscCallMPI(MPI_Comm_rank(comm_, &mine.rank));
-  PetscCallMPI(MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_));
-  PetscCallMPI(MPI_Bcast(x, 3, MPI_DOUBLE, most.rank, comm_));
+  PetscCall(LargestOverRanks(comm_, &largest, x));
   const BalanceSums &sums = relaxation_->last();
   char text[700];
   std::snprintf(
@@ -123,7 +117,7 @@ PetscErrorCode Simulation::ReportImbalance() {
       "that fails or hangs free never comes to rest; else give more -relax_max_steps or a larger ratio",
       Staged() ? "stage '" : "the body is", Now().name.c_str(), Staged() ? "' is" : "",
       static_cast<long long>(steps_ - stage_step_), sums.unbalanced, relaxation_->plan().ratio,
-      relaxation_->peak() > 0 ? sums.kinetic / relaxation_->peak() : 0, relaxation_->plan().kinetic, most.size, x[0],
+      relaxation_->peak() > 0 ? sums.kinetic / relaxation_->peak() : 0, relaxation_->plan().kinetic, largest, x[0],
       x[1], x[2]);
   failure_ = text;
   PetscFunctionReturn(PETSC_SUCCESS);

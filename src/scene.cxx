@@ -53,9 +53,6 @@ static PetscErrorCode ReadTime(Options &options, Scene *scene) {
   CdemCheck(!scene->has_end_step || scene->end_step >= 0, options.comm(),
             "-ts_max_steps is %lld; it must be at least 0", static_cast<long long>(scene->end_step));
   if (scene->relax) {
-    CdemCheck(!scene->name.empty() || (!scene->has_end_time && !scene->has_end_step), options.comm(),
-              "-solve relax ends when the body is in balance: take out -ts_max_time and -ts_max_steps; "
-              "-relax_max_steps limits its steps");
     PetscCall(ReadRelaxPlan(options, &scene->relaxation));
   } else {
     CdemCheck(scene->has_end_time || scene->has_end_step, options.comm(),
@@ -150,6 +147,15 @@ PetscErrorCode ReadScenes(Options &options, const Mesh &mesh, const std::vector<
     before = scene;
   }
   options.SetStages({});
+  bool ends = false, all_relax = true;
+  for (const Scene &scene : *scenes) {
+    ends = ends || scene.has_end_time || scene.has_end_step;
+    all_relax = all_relax && scene.relax;
+  }
+  CdemCheck(!ends || !all_relax, mesh.comm,
+            "%s: take out -ts_max_time and -ts_max_steps; -relax_max_steps limits the steps",
+            staged ? "every stage relaxes, and ends when the body is in balance"
+                   : "-solve relax ends when the body is in balance");
   PetscCall(CarryOffsets(mesh, scenes));
   for (const std::string &remark : said)
     if (std::find(remarks->begin(), remarks->end(), remark) == remarks->end()) remarks->push_back(remark);

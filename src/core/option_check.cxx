@@ -21,24 +21,6 @@ std::vector<std::string> Options::Known() const {
   return known;
 }
 
-/// The row of a family that fits an option, and the name in it; of several the one with the longest key.
-static bool FamilyOf(const std::string &option, OptionPattern *fits, std::string *name) {
-  std::size_t most = 0;
-  bool found = false;
-  for (const OptionSpec &spec : OptionSpecs()) {
-    const OptionPattern pattern(spec);
-    const std::string head = pattern.family + "_", tail = pattern.key.empty() ? "" : "_" + pattern.key;
-    if (pattern.Plain() || option.size() <= head.size() + tail.size() || (found && tail.size() <= most)) continue;
-    if (Lower(option.substr(0, head.size())) != head) continue;
-    if (Lower(option.substr(option.size() - tail.size())) != tail) continue;
-    *fits = pattern;
-    *name = option.substr(head.size(), option.size() - head.size() - tail.size());
-    most = tail.size();
-    found = true;
-  }
-  return found;
-}
-
 static bool IsOneOf(const std::vector<std::string> &names, const std::string &name) {
   return std::any_of(names.begin(), names.end(), [&](const std::string &other) { return Lower(other) == Lower(name); });
 }
@@ -75,12 +57,11 @@ std::string Options::Complaint(const std::string &left, int *rank) const {
   int changes = 0;
   const std::string nearest = Nearest(left, known, &changes);
   const bool slip = LooksLike(left, changes);
-  OptionPattern pattern(OptionSpecs().front());
   std::string name;
-  if (FamilyOf(left, &pattern, &name)) {
+  if (const OptionSpec *family = FindFamily(left, &name)) {
     *rank = 1;
-    const auto names = declared_.find(pattern.noun);
-    const std::string &noun = pattern.noun;
+    const std::string noun = OptionPattern(*family).noun;
+    const auto names = declared_.find(noun);
     std::string text = given + ": there is no " + noun + " " + name + "; ";
     if (names == declared_.end() || names->second.empty())
       text += noun == "region" ? "no regions are known" : "none are declared (-" + Plural(noun) + ")";

@@ -77,23 +77,14 @@ namespace {
 /// The row that an option belongs to (of several families the one with the longest key), nullptr if none; everybodys: it
 /// names nobody.
 const OptionSpec *RowOf(const std::string &option, bool *everybodys) {
-  const OptionSpec *found = nullptr;
-  std::size_t most = 0;
   *everybodys = true;
   for (const OptionSpec &spec : OptionSpecs()) {
     const OptionPattern pattern(spec);
     if ((pattern.Plain() || !pattern.key.empty()) && Lower(pattern.Spell("")) == option) return &spec;
   }
   *everybodys = false;
-  for (const OptionSpec &spec : OptionSpecs()) {
-    const OptionPattern pattern(spec);
-    const std::string head = pattern.family + "_", tail = pattern.key.empty() ? "" : "_" + pattern.key;
-    if (pattern.Plain() || option.size() <= head.size() + tail.size() || (found && tail.size() <= most)) continue;
-    if (option.rfind(head, 0) != 0 || option.substr(option.size() - tail.size()) != tail) continue;
-    found = &spec;
-    most = tail.size();
-  }
-  return found;
+  std::string name;
+  return FindFamily(option, &name);
 }
 
 bool IsOfScene(const OptionSpec &spec) {

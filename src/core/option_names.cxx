@@ -30,6 +30,22 @@ const OptionSpec *FindOption(const OptionKey &key) {
   return nullptr;
 }
 
+const OptionSpec *FindFamily(const std::string &option, std::string *name) {
+  const OptionSpec *found = nullptr;
+  std::size_t most = 0;
+  for (const OptionSpec &spec : OptionSpecs()) {
+    const OptionPattern pattern(spec);
+    const std::string head = pattern.family + "_", tail = pattern.key.empty() ? "" : "_" + pattern.key;
+    if (pattern.Plain() || option.size() <= head.size() + tail.size() || (found && tail.size() <= most)) continue;
+    if (Lower(option.substr(0, head.size())) != head) continue;
+    if (Lower(option.substr(option.size() - tail.size())) != tail) continue;
+    *name = option.substr(head.size(), option.size() - head.size() - tail.size());
+    most = tail.size();
+    found = &spec;
+  }
+  return found;
+}
+
 std::string Expected(const OptionSpec &spec) {
   const std::string unit = *spec.unit ? std::string(" [") + spec.unit + "]" : "";
   const std::string choices = ListNames(SplitList(spec.choices));

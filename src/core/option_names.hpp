@@ -18,6 +18,10 @@ struct OptionPattern {
 /// The row of that option, nullptr if there is none.
 const OptionSpec *FindOption(const OptionKey &key);
 
+/// The row of a family that fits a given option (of several the one with the longest key), and the name in it; nullptr if
+/// none does. Large and small letters are the same.
+const OptionSpec *FindFamily(const std::string &option, std::string *name);
+
 /// What a value looks like: "a number [Pa]", "one of elastic, brittle".
 std::string Expected(const OptionSpec &spec);
 

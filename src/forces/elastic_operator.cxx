@@ -20,7 +20,7 @@ struct Elasticity {
   MPI_Datatype unit = MPI_DATATYPE_NULL;
 };
 
-/// Parameters with which the law of that table is elastic: its own lambda and mu, and no strength to reach.
+/// Makes a table elastic: by the law of that name, or where the form has a law of its own, by one in which nothing fails.
 void MakeElastic(ElementTable *t, std::vector<double> *param) {
   t->breaks = t->judged = false;
   VisitBlock(t->shape, t->form, t->law, [&](auto form, auto law) {
@@ -29,14 +29,7 @@ void MakeElastic(ElementTable *t, std::vector<double> *param) {
       t->states = 0;
       return;
     }
-    (void)law;
-    static_assert(!decltype(form)::kAtCorners || std::is_same_v<decltype(law), SpringBlock>,
-                  "say what makes this law elastic");
-    for (int row : t->material) {
-      double *p = &(*param)[static_cast<std::size_t>(kMaxParams) * row];
-      p[SpringBlock::kTension] = p[SpringBlock::kCohesion] = 1e150;  // its square is a number too
-      p[SpringBlock::kTanPhi] = p[SpringBlock::kTanResidual] = 0;
-    }
+    for (int row : t->material) decltype(law)::MakeIntact(&(*param)[static_cast<std::size_t>(kMaxParams) * row]);
   });
 }
 

@@ -1,5 +1,5 @@
-#include "core/error.hpp"
 #include "forces/references.hpp"
+
 #include "mesh/geometry.hpp"
 #include "physics/elements.hpp"
 
@@ -12,14 +12,6 @@ namespace {
 /// The stress of a material at a height [Pa].
 void StressAt(const Material &m, double z, double stress[6]) {
   for (int i = 0; i < 6; ++i) stress[i] = m.stressed ? m.stress[i] + m.gradient[i] * z : 0;
-}
-
-/// Minus the strain (true shears) of a stress: the offset with which an element has it at u = 0.
-void OffsetOf(const double *param, const double stress[6], double offset[6]) {
-  const double lambda = param[Elastic::kLambda], mu = param[Elastic::kMu];
-  const double trace = stress[kXX] + stress[kYY] + stress[kZZ];
-  for (int i = 0; i < 6; ++i)
-    offset[i] = -(stress[i] - (i < 3 ? lambda / (3 * lambda + 2 * mu) * trace : 0)) / (2 * mu);
 }
 
 /// Height of point g of a form [m]. Forms with one point have it at the mean of their corners.
@@ -49,10 +41,10 @@ void StartElement(const Tables &tables, const ElementTable &t, const Material &m
   for (int a = 0; a < Form::kCorners; ++a) std::copy_n(&tables.x[3 * static_cast<std::size_t>(t.Node(a, e))], 3, x[a]);
   const double *param = &tables.block_param[static_cast<std::size_t>(kMaxParams) * t.material[e]];
   for (int g = 0; g < Form::kPoints; ++g) {
-    double stress[6], offset[6];
+    double stress[6], strain[6];
     StressAt(m, PointHeight<Form>(x, g), stress);
-    OffsetOf(param, stress, offset);
-    for (int i = 0; i < 6; ++i) h->value[static_cast<std::size_t>(g * Law::kState + i) * t.n_pad + e] = offset[i];
+    StrainOfStress(param, stress, strain);  // the element has it without that strain
+    for (int i = 0; i < 6; ++i) h->value[static_cast<std::size_t>(g * Law::kState + i) * t.n_pad + e] = -strain[i];
   }
   h->state[e] |= kTouched;
 }
@@ -93,12 +85,10 @@ void StartUnderStress(const Mesh &mesh, const Nodes &nodes, const std::vector<Ma
   for (std::size_t g = 0; g < tables.springs.size(); ++g) {
     const SpringTable &t = tables.springs[g];
     SpringHistory &h = start->springs[g];
+    const std::vector<int> corner = SpringCorners(mesh, nodes, t);
     for (int i = 0; i < t.n; ++i) {
-      const Face &face = mesh.faces[t.face[i]];
-      int j = 0;
-      while (FaceNode(mesh, nodes, face, j, 0) != t.a[i] || FaceNode(mesh, nodes, face, j, 1) != t.b[i]) ++j;
       double force[3], normal[3];
-      FaceForce(mesh, materials, face, j, force);
+      FaceForce(mesh, materials, mesh.faces[t.face[i]], corner[i], force);
       for (int k = 0; k < 3; ++k) normal[k] = t.normal[static_cast<std::size_t>(k) * t.n_pad + i];
       const double along = Dot(normal, force);
       JointLaws::Visit(t.law, [&](auto law) {

@@ -23,6 +23,18 @@ PetscInt FaceNode(const Mesh &mesh, const Nodes &nodes, const Face &face, int j,
   return nodes.Corners(face.cell[1])[c1];
 }
 
+std::vector<int> SpringCorners(const Mesh &mesh, const Nodes &nodes, const SpringTable &table) {
+  std::vector<int> corner(table.n, -1);
+  for (int i = 0; i < table.n; ++i) {
+    const Face &face = mesh.faces[table.face[i]];
+    const int size = Info(mesh.cell_shape[face.cell[0]]).face_size[face.local[0]];
+    for (int j = 0; j < size && corner[i] < 0; ++j)
+      if (FaceNode(mesh, nodes, face, j, 0) == table.a[i] && FaceNode(mesh, nodes, face, j, 1) == table.b[i])
+        corner[i] = j;
+  }
+  return corner;
+}
+
 namespace {
 
 /// Cells with a complete node list, in ascending global number.

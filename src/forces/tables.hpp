@@ -137,4 +137,7 @@ double CentreDistance(const Mesh &mesh, const Face &face);
 /// Local nodes at corner j of a face, on the side of cell[side].
 PetscInt FaceNode(const Mesh &mesh, const Nodes &nodes, const Face &face, int j, int side);
 
+/// Corner of the mesh's face at which each spring of a table stands.
+std::vector<int> SpringCorners(const Mesh &mesh, const Nodes &nodes, const SpringTable &table);
+
 }  // namespace cdem

@@ -47,13 +47,6 @@ void CopyNumbers(const double *from, int from_stride, double *to, int to_stride,
     to[static_cast<std::size_t>(k) * to_stride] = from[static_cast<std::size_t>(k) * from_stride];
 }
 
-/// The strain (true shears) of a stress.
-void StrainOfStress(const double *param, const double stress[6], double strain[6]) {
-  const double lambda = param[Elastic::kLambda], mu = param[Elastic::kMu];
-  const double trace = stress[kXX] + stress[kYY] + stress[kZZ];
-  for (int i = 0; i < 6; ++i) strain[i] = (stress[i] - (i < 3 ? lambda / (3 * lambda + 2 * mu) * trace : 0)) / (2 * mu);
-}
-
 /// A point that also keeps what it is given and gives: strain - the strain of its stress with other moduli.
 template <class Law>
 struct KeepingPoint {

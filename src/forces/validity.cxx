@@ -38,8 +38,9 @@ double Slip(const SpringTable &t, int i, const double *u) {
   return std::sqrt(std::max(0.0, Dot(d, d) - along * along) / (4 * t.area[i]));
 }
 
-/// The largest value over the ranks, with its place.
-PetscErrorCode Largest(MPI_Comm comm, double *value, double *place) {
+}  // namespace
+
+PetscErrorCode LargestOverRanks(MPI_Comm comm, double *value, double *place) {
   PetscFunctionBeginUser;
   struct {
     double value;
@@ -51,8 +52,6 @@ PetscErrorCode Largest(MPI_Comm comm, double *value, double *place) {
   *value = most.value;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-}  // namespace
 
 PetscErrorCode CheckValidity(const Tables &tables, const double *u, Validity *validity) {
   PetscFunctionBeginUser;
@@ -72,8 +71,8 @@ PetscErrorCode CheckValidity(const Tables &tables, const double *u, Validity *va
       validity->slip = slip;
       std::copy_n(&tables.x[3 * static_cast<std::size_t>(t.a[i])], 3, validity->slip_at);
     }
-  PetscCall(Largest(tables.comm, &validity->slip, validity->slip_at));
-  PetscCall(Largest(tables.comm, &validity->rotation, validity->rotation_at));
+  PetscCall(LargestOverRanks(tables.comm, &validity->slip, validity->slip_at));
+  PetscCall(LargestOverRanks(tables.comm, &validity->rotation, validity->rotation_at));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

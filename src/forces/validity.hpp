@@ -13,6 +13,9 @@ struct Validity {
   double rotation = 0, rotation_at[3] = {0, 0, 0};  ///< mean rotation of an element [degrees]
 };
 
+/// The largest value over the ranks and its place [3] (collective). [in,out] value, place: of this rank at first.
+PetscErrorCode LargestOverRanks(MPI_Comm comm, double *value, double *place);
+
 /// [in] u: host, [n_local][3] m. Collective.
 PetscErrorCode CheckValidity(const Tables &tables, const double *u, Validity *validity);
 

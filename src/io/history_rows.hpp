@@ -36,7 +36,4 @@ HistoryData TakeRows(const HistoryRows &kind, const Histories &history, const st
 /// [in] data: of all rows of the table. Padded rows become copies of the last one.
 void PutRows(const HistoryRows &kind, const HistoryData &data, Histories *history);
 
-/// Corner of the mesh's face at which each spring of a table stands.
-std::vector<int> SpringCorners(const Mesh &mesh, const Nodes &nodes, const SpringTable &table);
-
 }  // namespace cdem

@@ -187,6 +187,7 @@ OPTIONS = {
     "stage with a misspelt option": ({"stages": "a", "stage_a_gravty": (0, 0, 1)}, ["stage a", "-gravty", "-gravity"]),
     "strength factor zero": ({"stages": "a", "stage_a_strength_factor": 0.0}, ["-stage_a_strength_factor", "0"]),
     "unknown reset": ({"stages": "a", "stage_a_reset": "velocity"}, ["-stage_a_reset", "velocity", "displacement"]),
+    "end of relaxations": ({"stages": ("a", "b"), "solve": "relax"}, ["-ts_max_steps", "every stage", "-relax_max_steps"]),
     "relaxation damped away": ({"solve": "relax", "ts_max_steps": DROP, "damping_local": 1.0}, ["-damping_local", "1"]),
     "relaxation ratio zero": ({"solve": "relax", "ts_max_steps": DROP, "relax_ratio": 0.0}, ["-relax_ratio", "0"]),
     "no such law": ({"block_law": "drucker"}, ["drucker", "drucker_prager", "elastic"]),
