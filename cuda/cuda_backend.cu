@@ -1,7 +1,7 @@
 // The GPU backend: the reference way, captured in CUDA graphs on one rank; with a halo exchange a step on several.
 #include "core/error.hpp"
 #include "core/events.hpp"
-#include "cuda/device_tables.cuh"
+#include "cuda/step_graph.cuh"
 
 #include <petscdevice_cuda.h>
 
@@ -22,17 +22,11 @@ namespace {
 /// lose 4 % (H200).
 constexpr std::size_t kOverlapSlots = 1000000;
 
-/// A run of equal steps, recorded once and replayed.
-struct StepGraph {
-  int steps = 0;
-  cudaGraphExec_t exec = nullptr;
-};
-
 class CudaBackend final : public Backend {
  public:
   CudaBackend(const Tables &tables, int block) : t_(tables) { launch_.block = block; }
   ~CudaBackend() override {
-    DropGraphs();
+    graphs_.Drop();
     if (launch_.stream && !t_.halo) cudaStreamDestroy(launch_.stream);
     if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
   }
@@ -103,7 +97,7 @@ class CudaBackend final : public Backend {
         PetscCall(tables_.LaunchStep(nodes, batch.first, batch_.get(), launch_));
         ++done;
       }
-      PetscCall(Replay(nodes, batch.rest, batch.n - done));
+      PetscCall(graphs_.Run(&tables_, nodes, batch.rest, batch_.get(), launch_, batch.n - done));
     }
     CdemCuda(cudaMemcpyAsync(state_.get(), batch_.get(), sizeof(BatchState), cudaMemcpyDeviceToHost, launch_.stream));
     if (t_.n_watch > 0)
@@ -181,7 +175,7 @@ class CudaBackend final : public Backend {
     const std::size_t schedule = t_.records.n > 0 ? 3 * static_cast<std::size_t>(t_.n_tables) * n : 0;
     const std::size_t history = 6 * static_cast<std::size_t>(t_.n_watch) * n;
     if (schedule > schedule_.size() || history > history_.size()) {
-      DropGraphs();  // they hold the old addresses
+      graphs_.Drop();  // they hold the old addresses
       PetscCall(schedule_.Allocate(schedule));
       scheduled_ = 0;
       PetscCall(history_.Allocate(history));
@@ -202,43 +196,6 @@ class CudaBackend final : public Backend {
     }
     *state_.get() = BatchState{0, -1, ~0ull, batch.base, batch.rest.dt, batch.offset};
     CdemCuda(cudaMemcpyAsync(batch_.get(), state_.get(), sizeof(BatchState), cudaMemcpyHostToDevice, launch_.stream));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  void DropGraphs() {
-    for (StepGraph *g : {&short_, &long_})
-      if (g->exec) cudaGraphExecDestroy(std::exchange(g->exec, nullptr));
-  }
-
-  /// n equal steps: single ones, then short graphs, then long ones. A long graph takes the host long to launch: this way
-  /// the GPU already works while it does.
-  PetscErrorCode Replay(const NodeView &nodes, const StepArgs &args, int n) {
-    PetscFunctionBeginUser;
-    if (!(args == graph_args_)) DropGraphs();
-    graph_args_ = args;
-    const int singles = n % short_.steps, shorts = n % long_.steps / short_.steps, longs = n / long_.steps;
-    for (int i = 0; i < singles; ++i) PetscCall(tables_.LaunchStep(nodes, args, batch_.get(), launch_));
-    PetscCall(Launch(nodes, args, shorts, &short_));
-    PetscCall(Launch(nodes, args, longs, &long_));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  PetscErrorCode Launch(const NodeView &nodes, const StepArgs &args, int times, StepGraph *g) {
-    PetscFunctionBeginUser;
-    if (times > 0 && !g->exec) PetscCall(Capture(nodes, args, g));
-    for (int i = 0; i < times; ++i) CdemCuda(cudaGraphLaunch(g->exec, launch_.stream));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  PetscErrorCode Capture(const NodeView &nodes, const StepArgs &args, StepGraph *g) {
-    PetscFunctionBeginUser;
-    cudaGraph_t graph;
-    CdemCuda(cudaStreamBeginCapture(launch_.stream, cudaStreamCaptureModeThreadLocal));
-    for (int i = 0; i < g->steps; ++i) PetscCall(tables_.LaunchStep(nodes, args, batch_.get(), launch_));
-    CdemCuda(cudaStreamEndCapture(launch_.stream, &graph));
-    CdemCuda(cudaGraphInstantiate(&g->exec, graph, 0));
-    CdemCuda(cudaGraphUpload(g->exec, launch_.stream));
-    CdemCuda(cudaGraphDestroy(graph));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
@@ -265,8 +222,7 @@ class CudaBackend final : public Backend {
   PinnedValue<BatchState> state_;          // the host side of batch_
   std::size_t scheduled_ = 0;              // doubles of schedule_ that are filled
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
-  StepGraph short_{8, nullptr}, long_{64, nullptr};
-  StepArgs graph_args_;
+  StepGraphs graphs_;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;
   std::vector<double> host_u_, host_v_;
   Histories host_history_;

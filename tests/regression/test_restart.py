@@ -380,7 +380,7 @@ def test_kills(ranks, tmp_path):
                      for key, value in {**options, "output": "out", **start}.items()]
             (folder / "scene.txt").write_text("\n".join(lines) + "\n")
             command = [*(harness.MPIRUN + ["-n", str(ranks)] if ranks > 1 else []), harness.program(), "-options_file",
-                       "scene.txt"]
+                       "scene.txt", *harness.device(options)]
             with open(folder / "log", "w") as log:
                 run = subprocess.Popen(command, cwd=folder, env=harness.environment(), stdout=log, stderr=log)
                 try:

@@ -19,6 +19,12 @@ def program():
     return os.environ.get("CDEM", str(ROOT / "build" / "cpu" / "cdem"))
 
 
+def device(options, extra=()):
+    """Options that choose the device: environment CDEM_DEVICE, unless the scene names one."""
+    chosen = os.environ.get("CDEM_DEVICE")
+    return ["-device", chosen] if chosen and "device" not in options and "-device" not in extra else []
+
+
 def as_text(value):
     """The value of an option as PETSc reads it; numbers keep all their digits."""
     if isinstance(value, bool):
@@ -72,7 +78,8 @@ def call(folder, options, ranks=1, timeout=600, extra=()):
     folder.mkdir(parents=True, exist_ok=True)
     lines = [f"-{key}" if value is None else f"-{key} {as_text(value)}" for key, value in options.items()]
     (folder / "scene.txt").write_text("\n".join(lines) + "\n")
-    command = (MPIRUN + ["-n", str(ranks)] if ranks > 1 else []) + [program(), "-options_file", "scene.txt", *extra]
+    command = (MPIRUN + ["-n", str(ranks)] if ranks > 1 else []) + [program(), "-options_file", "scene.txt",
+                                                                         *device(options, extra), *extra]
     return subprocess.run(command, cwd=folder, env=environment(), text=True, errors="replace", timeout=timeout,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
