@@ -1,6 +1,8 @@
-// The GPU backend: the reference way, captured in CUDA graphs on one rank; with a halo exchange a step on several.
+// The GPU backend: the reference way, captured in CUDA graphs on one rank, with a halo exchange a step on several; or the
+// rows, in scenes that have them.
 #include "core/error.hpp"
 #include "core/events.hpp"
+#include "cuda/rows_way.cuh"
 #include "cuda/step_graph.cuh"
 
 #include <petscdevice_cuda.h>
@@ -31,7 +33,7 @@ class CudaBackend final : public Backend {
     if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
   }
 
-  PetscErrorCode Create(int n_owned_cells) {
+  PetscErrorCode Create(int n_owned_cells, const std::string &way) {
     PetscFunctionBeginUser;
     PetscDeviceContext context;
     PetscCall(PetscDeviceInitialize(PETSC_DEVICE_CUDA));       // PETSc chooses the device of this rank
@@ -51,6 +53,10 @@ class CudaBackend final : public Backend {
     PetscCall(PetscOptionsHasName(nullptr, nullptr, "-log_view_gpu_time", &timed));
     launch_.timed = timed;
     launch_.overlap = !t_.halo && !timed && t_.n_slots < kOverlapSlots;
+    PetscCall(ChooseWay(way));
+    LaunchArgs load = launch_;
+    load.load = true;
+    PetscCall(tables_.LaunchStep(View(), {}, batch_.get(), load));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
@@ -61,8 +67,10 @@ class CudaBackend final : public Backend {
     cudaGetDeviceProperties(&properties, device);
     return properties.name;
   }
+  Way WayOfStep() const override { return way_; }
   std::size_t Bytes() const override {
-    return tables_.Bytes() + u_.bytes() + v_.bytes() + schedule_.bytes() + history_.bytes();
+    return (rows_ ? rows_->Bytes() : 0) + tables_.Bytes() + u_.bytes() + v_.bytes() + schedule_.bytes() +
+           history_.bytes();
   }
 
   PetscErrorCode CreateVecs(Vec *u, Vec *v) override {
@@ -97,7 +105,10 @@ class CudaBackend final : public Backend {
         PetscCall(tables_.LaunchStep(nodes, batch.first, batch_.get(), launch_));
         ++done;
       }
-      PetscCall(graphs_.Run(&tables_, nodes, batch.rest, batch_.get(), launch_, batch.n - done));
+      if (rows_)
+        PetscCall(rows_->Run(nodes, batch.rest, batch_.get(), done, batch.n - done, launch_.stream));
+      else
+        PetscCall(graphs_.Run(&tables_, nodes, batch.rest, batch_.get(), launch_, batch.n - done));
     }
     CdemCuda(cudaMemcpyAsync(state_.get(), batch_.get(), sizeof(BatchState), cudaMemcpyDeviceToHost, launch_.stream));
     if (t_.n_watch > 0)
@@ -167,6 +178,25 @@ class CudaBackend final : public Backend {
   }
 
  private:
+  /// The rows where a scene can go that way: they are the faster one wherever they fit.
+  PetscErrorCode ChooseWay(const std::string &way) {
+    PetscFunctionBeginUser;
+    if (way == "reference") PetscFunctionReturn(PETSC_SUCCESS);
+    auto rows = std::make_unique<RowsWay>();
+    std::string why = launch_.timed ? "-log_view_gpu_time" : "";
+    if (why.empty()) PetscCall(rows->Create(t_, &why));
+    CdemCheck(way == "auto" || why.empty(), t_.comm, "-central_way rows: this scene cannot go that way: %s",
+              why.c_str());
+    if (why.empty()) {
+      way_ = {"rows", "assembled rows in the registers of " + std::to_string(rows->n_blocks()) +
+                          (rows->n_blocks() == 1 ? " thread block" : " thread blocks, one cluster")};
+      rows_ = std::move(rows);
+    } else {
+      way_.text += " (not rows: " + why + ")";
+    }
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
   NodeView View() const { return tables_.Nodes(u_.get(), v_.get(), schedule_.get(), history_.get()); }
 
   /// Room for the schedule and the history of n steps; only in scenes that have them.
@@ -223,6 +253,8 @@ class CudaBackend final : public Backend {
   std::size_t scheduled_ = 0;              // doubles of schedule_ that are filled
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
   StepGraphs graphs_;
+  std::unique_ptr<RowsWay> rows_;  // where the scene goes that way
+  Way way_;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;
   std::vector<double> host_u_, host_v_;
   Histories host_history_;
@@ -231,10 +263,10 @@ class CudaBackend final : public Backend {
 }  // namespace
 
 PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block,
-                                 std::unique_ptr<Backend> *backend) {
+                                 const std::string &way, std::unique_ptr<Backend> *backend) {
   PetscFunctionBeginUser;
   auto made = std::make_unique<CudaBackend>(tables, elements_per_block);
-  PetscCall(made->Create(n_owned_cells));
+  PetscCall(made->Create(n_owned_cells, way));
   *backend = std::move(made);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,6 +10,7 @@ struct LaunchArgs {
   int block = 32;        ///< threads of the element kernels
   bool overlap = false;  ///< a kernel may begin while the one before it ends
   bool timed = false;    ///< every phase in its log event, waited for
+  bool load = false;     ///< nothing is launched: the code of the kernels is brought to the GPU, which takes a while
   cudaStream_t stream = nullptr;
 };
 
@@ -19,6 +20,11 @@ inline int Blocks(int n, int block) { return (n + block - 1) / block; }
 template <class... Params, class... Args>
 PetscErrorCode Launch(void (*kernel)(Params...), int blocks, int block, const LaunchArgs &launch, const Args &...args) {
   PetscFunctionBeginUser;
+  if (launch.load) {
+    cudaFuncAttributes unused;
+    CdemCuda(cudaFuncGetAttributes(&unused, kernel));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   cudaLaunchAttribute early;
   early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
   early.val.programmaticStreamSerializationAllowed = 1;

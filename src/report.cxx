@@ -39,7 +39,7 @@ PetscErrorCode Simulation::PrintHeader() {
 #endif
                         ));
   PetscCall(line("device", backend_->Name() + ", " + std::to_string(ranks) + (ranks > 1 ? " ranks" : " rank")));
-  PetscCall(line("way", "reference: forces, springs, sums and update one after the other, in global order"));
+  PetscCall(line("way", backend_->WayOfStep().name + ": " + backend_->WayOfStep().text));
   PetscCall(line("elements", Names(n_cells_)));
   PetscCall(line("nodes", std::to_string(nodes_.n_global) + " in " + std::to_string(nodes_.n_blocks) +
                               (nodes_.n_blocks == 1 ? " block" : " blocks")));
@@ -135,7 +135,7 @@ nlohmann::json Simulation::Summary() const {
   s["git"] = CDEM_GIT;
   s["petsc"] = PetscVersion();
   s["device"] = backend_->Name();
-  s["way"] = "reference";
+  s["way"] = backend_->WayOfStep().name;
   s["ranks"] = ranks;
   s["elements"] = elements;
   s["nodes"] = nodes_.n_global;

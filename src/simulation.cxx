@@ -110,8 +110,11 @@ PetscErrorCode Simulation::CreateBackend() {
   std::string way = "auto";
   bool deterministic = false;
   PetscInt per_block = 32;
-  PetscCall(options_.Word("central_way", &way));              // one way so far: the reference
-  PetscCall(options_.Flag("deterministic", &deterministic));  // which is deterministic
+  PetscCall(options_.Word("central_way", &way));
+  PetscCall(options_.Flag("deterministic", &deterministic));
+  CdemCheck(way != "rows" || !deterministic, comm_,
+            "-central_way rows and -deterministic: sums of the rows have another order; leave one of them out");
+  if (deterministic) way = "reference";
   bool cuda = device_ == "cuda";
 #ifdef CDEM_HAVE_CUDA
   if (device_ == "auto") cuda = CudaDeviceThere();
@@ -124,12 +127,13 @@ PetscErrorCode Simulation::CreateBackend() {
     CdemCheck(per_block >= 32 && per_block <= 256 && per_block % 32 == 0, comm_,
               "-elements_per_block is %lld; it must be a multiple of 32 from 32 to 256",
               static_cast<long long>(per_block));
-    PetscCall(CreateCudaBackend(tables_, static_cast<int>(mesh_.n_owned), static_cast<int>(per_block), &backend_));
+    PetscCall(CreateCudaBackend(tables_, static_cast<int>(mesh_.n_owned), static_cast<int>(per_block), way, &backend_));
   }
 #else
   (void)per_block;
   CdemCheck(!cuda, comm_, "-device cuda: this cdem was built without CUDA; build it with ./bootstrap build --cuda");
 #endif
+  CdemCheck(way != "rows" || cuda, comm_, "-central_way rows is a way of GPUs: use -device cuda, or leave it out");
   if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), &backend_));
   device_ = cuda ? "cuda" : "cpu";
   PetscCall(backend_->CreateVecs(&u_, &v_));

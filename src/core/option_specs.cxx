@@ -98,7 +98,7 @@ static std::vector<OptionSpec> &Registry() {
       {"relax_density_scaling", T::kFlag, "", "true", "masses, not weights, are scaled so that every node runs at one step", ""},
       {"relax_max_steps", T::kInt, "steps", "1000000", "not in balance by then: an error", ""},
       {"relax_interval", T::kInt, "steps", "100", "between two checks", ""},
-      {"deterministic", T::kFlag, "", "false", "only ways of computing that repeat to the last bit", ""},
+      {"deterministic", T::kFlag, "", "false", "the reference way, whose results do not depend on ranks", ""},
 
       {"stages", T::kNames, "", "", "declares the stages of a run, in order; `-stage_<name>_<option>` overrides that option from this stage on", ""},
       {"stage_<name>_remove", T::kNames, "", "", "regions that leave at its beginning, with their springs", ""},
@@ -130,7 +130,7 @@ static std::vector<OptionSpec> &Registry() {
       {"restart", T::kText, "", "", "starts from this checkpoint of the same scene; in its own folder (`-output`) histories and frames go on", ""},
 
       {"device", T::kWord, "", "auto", "where it is computed; auto: cuda if this build and machine have it", "auto,cpu,cuda"},
-      {"central_way", T::kWord, "", "auto", "way of computing a step", "auto,reference"},
+      {"central_way", T::kWord, "", "auto", "way of computing a step", "auto,reference,rows"},
       {"elements_per_block", T::kInt, "", "32", "elements that a thread block of the GPU takes; a multiple of 32 from 32 to 256", ""},
       {"help_options", T::kWord, "", "", "prints these options and ends: as text, or as the page docs/options.md", "plain,markdown"},
       // clang-format on

@@ -41,11 +41,18 @@ struct Observed {
   }
 };
 
+/// A way of computing a step.
+struct Way {
+  std::string name = "reference", text = "forces, springs, sums and update one after the other, in global order";
+};
+
 class Backend {
  public:
   virtual ~Backend() = default;
   /// "cpu, 8 lanes (AVX-512)" or the name of the GPU.
   virtual std::string Name() const = 0;
+  /// The way of computing a step, and why it is this one.
+  virtual Way WayOfStep() const { return {}; }
   /// Memory held for state and tables [bytes].
   virtual std::size_t Bytes() const = 0;
   /// Vecs of the owned nodes (block size 3) on the backend's own memory, behind which the ghosts lie.
@@ -75,8 +82,9 @@ PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const doub
 #ifdef CDEM_HAVE_CUDA
 /// True when this machine has a usable GPU.
 bool CudaDeviceThere();
+/// [in] way: its name, or "auto" for the fastest that the scene has. Errors: a way that the scene cannot go.
 PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block,
-                                 std::unique_ptr<Backend> *backend);
+                                 const std::string &way, std::unique_ptr<Backend> *backend);
 #endif
 
 }  // namespace cdem

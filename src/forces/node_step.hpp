@@ -49,20 +49,23 @@ struct NodeView {
   double *history = nullptr;         ///< [step][slot][6]: u(n), v(n)
 };
 
-/// Acceleration of a node [m/s^2] from its internal force, loads at t_n and gravity.
+/// Component k of the acceleration of a node [m/s^2] from its internal force, loads at t_n and gravity.
 template <bool kRecords, bool kDamped>
-CDEM_HD void Acceleration(const NodeView &n, const StepArgs &s, int i, int row, const double *now,
-                          const double f_int[3], double a[3]) {
-  double f[3] = {-f_int[0], -f_int[1], -f_int[2]};
+CDEM_HD double AccelerationOf(const NodeView &n, double gravity, int i, int row, int k, const double *now,
+                              double inverse_mass, double f_int) {
+  double f = -f_int;
   if (kRecords && row >= 0)
-    for (int l = n.load_start[row]; l < n.load_start[row + 1]; ++l)
-      for (int k = 0; k < 3; ++k) f[k] += n.load[3 * l + k] * now[3 * n.load_table[l]];
-  const double inverse_mass = n.inverse_mass[i];
-  if (kDamped && n.weight) {
-    CDEM_UNROLL for (int k = 0; k < 3; ++k) a[k] = f[k] * inverse_mass + s.gravity[k] * n.weight[i];
-  } else {
-    CDEM_UNROLL for (int k = 0; k < 3; ++k) a[k] = f[k] * inverse_mass + s.gravity[k];
-  }
+    for (int l = n.load_start[row]; l < n.load_start[row + 1]; ++l) f += n.load[3 * l + k] * now[3 * n.load_table[l]];
+  if (kDamped && n.weight) return f * inverse_mass + gravity * n.weight[i];
+  return f * inverse_mass + gravity;
+}
+
+/// All three of them.
+template <bool kRecords, bool kDamped>
+CDEM_HD void Acceleration(const NodeView &n, const StepArgs &s, int i, int row, const double *now, double inverse_mass,
+                          const double f_int[3], double a[3]) {
+  CDEM_UNROLL for (int k = 0; k < 3; ++k) a[k] =
+      AccelerationOf<kRecords, kDamped>(n, s.gravity[k], i, row, k, now, inverse_mass, f_int[k]);
 }
 
 CDEM_HD double Sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
@@ -87,6 +90,33 @@ CDEM_HD double PrescribedVelocity(int kind, double value, const double *table, d
   return kind == kVelocity ? value * table[1] : (value * table[2] - u) / dt;
 }
 
+/// Component k of a node's next half-step velocity [m/s]. [in] row: its record or -1; now: its row of the schedule; a:
+/// acceleration. [in,out] v_old: the last one; what it must have been, where the motion starts with its boundary.
+template <bool kRecords>
+CDEM_HD double VelocityOf(const NodeView &n, const StepArgs &s, int row, int k, const double *now, double a, double u,
+                          double *v_old) {
+  double v = s.keep * *v_old + s.kick * a;
+  if (kRecords && row >= 0) {
+    const int kind = (n.kind[row] >> (2 * k)) & 3;
+    if (kind != kFree) {
+      const double value = n.value[3 * row + k], *table = now + 3 * n.table[3 * row + k];
+      v = PrescribedVelocity(kind, value, table, u, s.dt);
+      // a component that starts with its boundary has the boundary's velocity at once
+      if (s.start) *v_old = kind == kVelocity ? value * table[0] : v;
+    }
+  }
+  return v;
+}
+
+/// Writes component k of a watched node at t_n. [in] step: row of the history.
+CDEM_HD void WriteHistory(const NodeView &n, const StepArgs &s, int row, int k, int step, double u, double v_old,
+                          double v) {
+  if (n.watch[row] < 0) return;
+  double *out = n.history + 6 * (static_cast<long long>(step) * n.n_watch + n.watch[row]);
+  out[k] = u;
+  out[3 + k] = s.start ? v_old : 0.5 * (v_old + v);
+}
+
 /// One central-difference step of node i; kQuiet: some of the records have dashpots; kDamped: there is local damping, or
 /// masses are scaled. [in] step: row of schedule and history. Returns false when the velocity is not a finite number of
 /// reasonable size.
@@ -94,32 +124,19 @@ template <bool kRecords, bool kQuiet = false, bool kDamped = false>
 CDEM_HD bool NodeStep(const NodeView &n, const StepArgs &s, int i, int step, const double f_int[3]) {
   const int row = kRecords ? n.record[i] : -1;
   const double *now = kRecords ? n.schedule + 3 * static_cast<long long>(step) * n.n_tables : nullptr;
+  const double inverse_mass = n.inverse_mass[i];
   double a[3], u[3], v_old[3], v[3];
-  Acceleration<kRecords, kDamped>(n, s, i, row, now, f_int, a);
+  Acceleration<kRecords, kDamped>(n, s, i, row, now, inverse_mass, f_int, a);
   if (kDamped) Resist(n, s, i, n.v + 3 * static_cast<long long>(i), true, a);
   CDEM_UNROLL for (int k = 0; k < 3; ++k) {
     u[k] = n.u[3 * static_cast<long long>(i) + k];
     v_old[k] = n.v[3 * static_cast<long long>(i) + k];
-    v[k] = s.keep * v_old[k] + s.kick * a[k];
+    v[k] = VelocityOf<kRecords>(n, s, row, k, now, a[k], u[k], &v_old[k]);
   }
   if (kRecords && row >= 0) {
-    for (int k = 0; k < 3; ++k) {
-      const int kind = (n.kind[row] >> (2 * k)) & 3;
-      if (kind == kFree) continue;
-      const int table = n.table[3 * row + k];
-      v[k] = PrescribedVelocity(kind, n.value[3 * row + k], now + 3 * table, u[k], s.dt);
-      // a component that starts with its boundary has the boundary's velocity at once
-      if (s.start) v_old[k] = kind == kVelocity ? n.value[3 * row + k] * now[3 * table] : v[k];
-    }
     if (kQuiet && n.quiet[row] >= 0)
-      Absorb(n.dashpot + 6 * n.quiet[row], 0.5 * s.kick * n.inverse_mass[i], n.kind[row], v_old, v);
-    if (n.watch[row] >= 0) {
-      double *out = n.history + 6 * (static_cast<long long>(step) * n.n_watch + n.watch[row]);
-      for (int k = 0; k < 3; ++k) {
-        out[k] = u[k];
-        out[3 + k] = s.start ? v_old[k] : 0.5 * (v_old[k] + v[k]);
-      }
-    }
+      Absorb(n.dashpot + 6 * n.quiet[row], 0.5 * s.kick * inverse_mass, n.kind[row], v_old, v);
+    for (int k = 0; k < 3; ++k) WriteHistory(n, s, row, k, step, u[k], v_old[k], v[k]);
   }
   CDEM_UNROLL for (int k = 0; k < 3; ++k) {
     n.v[3 * static_cast<long long>(i) + k] = v[k];

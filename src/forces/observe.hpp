@@ -31,8 +31,8 @@ CDEM_HD NodeSums ObserveNode(const NodeView &n, const StepArgs &s, int i, double
                              const double f_damped[3], double v_now[3]) {
   const int row = kRecords ? n.record[i] : -1;
   double a[3], a_static[3];
-  Acceleration<kRecords, kDamped>(n, s, i, row, n.schedule, f_damped, a);
-  Acceleration<kRecords, kDamped>(n, s, i, row, n.schedule, f_int, a_static);
+  Acceleration<kRecords, kDamped>(n, s, i, row, n.schedule, n.inverse_mass[i], f_damped, a);
+  Acceleration<kRecords, kDamped>(n, s, i, row, n.schedule, n.inverse_mass[i], f_int, a_static);
   if (kDamped) Resist(n, s, i, n.v + 3 * static_cast<long long>(i), false, a);
   const bool absorbs = kQuiet && row >= 0 && n.quiet[row] >= 0;
   double absorbed[3] = {0, 0, 0};

@@ -142,6 +142,8 @@ def test_restart_equals_straight_run(seed, tmp_path):
     options, has_history = scene(seed)
     options = {**options, **AT_THE_END}
     before, after = RANKS[seed % len(RANKS)]
+    if max(before, after) > 1:  # the straight run has one rank, and so may go a faster way on a GPU
+        options["deterministic"] = None
     stop = random.Random(1000 + seed).randint(1, STEPS - 1)
     straight = harness.run(tmp_path / "straight", options).out
     harness.run(tmp_path / "parts", {**options, "ts_max_steps": stop}, ranks=before)
