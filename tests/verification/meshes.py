@@ -1,4 +1,4 @@
-"""Structured meshes of hexahedra or tetrahedra with named regions and surfaces, written by gmsh."""
+"""Structured meshes of hexahedra or tetrahedra with named regions and surfaces, and those of .geo files, written by gmsh."""
 import itertools
 
 import gmsh
@@ -68,6 +68,17 @@ def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda
                 element += len(items)
                 gmsh.model.addPhysicalGroup(dim, [tag], tag)
                 gmsh.model.setPhysicalName(dim, tag, label)
+        gmsh.write(str(path))
+    finally:
+        gmsh.finalize()
+
+
+def from_geo(path, geo, **numbers):
+    """Meshes a .geo file, with other values of the numbers that it declares by DefineConstant."""
+    gmsh.initialize(["gmsh", "-v", "0", *(word for name, value in numbers.items() for word in ("-setnumber", name, str(value)))])
+    try:
+        gmsh.open(str(geo))
+        gmsh.model.mesh.generate(3)
         gmsh.write(str(path))
     finally:
         gmsh.finalize()
