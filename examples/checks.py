@@ -1,4 +1,4 @@
-"""Shared by the check.py of every example: reads an output folder, prints a table, sets the exit code. numpy only."""
+"""Shared by the check.py of every example: reads an output folder, prints a table, sets the exit code."""
 import json
 import os
 import sys
@@ -22,6 +22,18 @@ def summary(out):
     """summary.json as a dictionary."""
     with open(os.path.join(out, "summary.json")) as f:
         return json.load(f)
+
+
+def last_frame(out):
+    """Points, corners of the cells [cells, corners] (of one shape), point data, cell data of the last frame. Needs h5py."""
+    import h5py
+    with open(os.path.join(out, "fields.hdf.series")) as f:
+        name = json.load(f)["files"][-1]["name"]
+    with h5py.File(os.path.join(out, name), "r") as f:
+        group = f["VTKHDF"]
+        cells = group["Connectivity"][:].reshape(len(group["Offsets"]) - 1, -1)
+        point_data, cell_data = ({k: d[:] for k, d in group[kind].items()} for kind in ("PointData", "CellData"))
+        return group["Points"][:], cells, point_data, cell_data
 
 
 def ricker(t, frequency, delay):

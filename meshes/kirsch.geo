@@ -1,7 +1,7 @@
 // A quarter of a slab with a circular hole of radius 0.1 m yet to be dug, out to 0.4 m, one element thick.
 // Regions rock, core (what is dug out); surfaces wall (between them), west (x = 0), south (y = 0), faces (z); lines o0, o1, ...
-// on the outside, a pair of nodes each, from x = 0.4, y = 0 on, counter-clockwise.      gmsh -3 kirsch.geo -setnumber n 8
-DefineConstant[ n = 16 ];                     // cells in 45 degrees; the outside has 2n + 1 lines
+// on the outside, a pair of nodes each, from x = 0.4, y = 0 on, counter-clockwise.      gmsh -3 kirsch.geo
+DefineConstant[ n = 8 ];                      // cells in 45 degrees; the outside has 2n + 1 lines
 Mesh.MshFileVersion = 2.2; Mesh.Binary = 1;
 a = 0.1; outer = 0.4; c = 0.5*a;              // c: edge of the square in the middle of the core
 m = Round(Log(outer/a)/Log(1 + Pi/4/n));      // cells from wall to outside, about square
