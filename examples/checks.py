@@ -24,11 +24,11 @@ def summary(out):
         return json.load(f)
 
 
-def last_frame(out):
-    """Points, corners of the cells [cells, corners] (of one shape), point data, cell data of the last frame. Needs h5py."""
+def frame(out, number=-1):
+    """Points, corners of the cells [cells, corners] (of one shape), point data, cell data of a frame. Needs h5py."""
     import h5py
     with open(os.path.join(out, "fields.hdf.series")) as f:
-        name = json.load(f)["files"][-1]["name"]
+        name = json.load(f)["files"][number]["name"]
     with h5py.File(os.path.join(out, name), "r") as f:
         group = f["VTKHDF"]
         cells = group["Connectivity"][:].reshape(len(group["Offsets"]) - 1, -1)

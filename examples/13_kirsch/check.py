@@ -24,7 +24,7 @@ def closure(t):
 
 def wall_hoop(out):
     """Angles of the cells round the wall and the hoop stress there: a parabola through the three innermost cells."""
-    points, cells, _, data = checks.last_frame(out)
+    points, cells, _, data = checks.frame(out)
     rock = data["region"] == 0
     centre, (xx, yy, _, xy, _, _) = points[cells[rock]].mean(axis=1), data["stress"][rock].T
     r, t = np.hypot(centre[:, 0], centre[:, 1]), np.arctan2(centre[:, 1], centre[:, 0])
@@ -38,7 +38,7 @@ def wall_hoop(out):
 
 def wall_closure(out):
     """Angles of the wall's nodes and their closure."""
-    points, _, data, _ = checks.last_frame(out)
+    points, _, data, _ = checks.frame(out)
     wall = abs(np.hypot(points[:, 0], points[:, 1]) / RADIUS - 1) < 1e-6
     (x, y), (u, v) = points[wall, :2].T, data["displacement"][wall, :2].T
     order = np.argsort(np.arctan2(y, x))
