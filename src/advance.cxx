@@ -33,6 +33,8 @@ StepArgs Simulation::MakeArgs(double dt_old, double dt) const {
   args.kick = h / (1 + half);
   args.start = dt_old == 0;
   args.local = local_;
+  args.alpha = alpha_;
+  args.dt_old = dt_old;
   std::copy_n(tables_.gravity, 3, args.gravity);
   return args;
 }
@@ -59,6 +61,7 @@ PetscErrorCode Simulation::Advance(const StepPlan &plan) {
     for (PetscInt j = 0; j < plan.n; ++j) FillSchedule(plan.Time(j) - stage_time_, plan.dt, &schedule[row * j]);
     batch.schedule = schedule.data();
   }
+  input_.Add(plan.dt, batch.n, batch.schedule);
   history.resize(6 * static_cast<std::size_t>(tables_.n_watch) * plan.n);
   batch.history = history.data();
   Failure failure;
@@ -95,12 +98,13 @@ PetscErrorCode Simulation::ReportFailure(const StepPlan &plan, const Failure &fa
   if (first.rank == mine.rank) std::copy_n(&tables_.x[3 * static_cast<std::size_t>(failure.node)], 3, x);
   PetscCallMPI(MPI_Bcast(x, 3, MPI_DOUBLE, first.rank, comm_));
   const PetscInt step = plan.first + first.step + 1;
-  std::string cause = "a strength, stiffness or load out of proportion";
-  if (!bound_known_ || plan.dt > dt_critical()) cause = "a time step above the critical one (leave out -ts_dt)";
+  std::string kept;
+  PetscCall(WriteGoodState(&kept));
   CdemCheck(false, comm_,
             "the run became unstable: the velocity of the node at (%g, %g, %g) left the range of numbers in step %lld "
-            "(time %g s). Likely cause: %s. What was written before stays on disk",
-            x[0], x[1], x[2], static_cast<long long>(step), plan.Time(first.step + 1), cause.c_str());
+            "(time %g s). Likely cause: %s. %s",
+            x[0], x[1], x[2], static_cast<long long>(step), plan.Time(first.step + 1), LikelyCause(plan.dt).c_str(),
+            kept.c_str());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -40,8 +40,14 @@ PetscErrorCode Simulation::Kinetic(double *energy) {
 /// Velocities become 0; the coming step is a first one.
 PetscErrorCode Simulation::StopMotion() {
   PetscFunctionBeginUser;
+  AuditSums before, after;
+  if (book_.on) PetscCall(TakeAudit(&before));
   PetscCall(VecSet(v_, 0));
   PetscCall(TSCentralSetLastStep(ts_, 0));
+  if (book_.on) {
+    PetscCall(TakeAudit(&after));
+    book_.Stop(before, after);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -171,11 +171,14 @@ nlohmann::json Simulation::Summary() const {
   (void)PetscMemoryGetCurrentUsage(&bytes);
   s["memory"] = {{"host", bytes}, {"device", device_ == "cuda" ? static_cast<double>(backend_->Bytes()) : 0.0}};
   s["validity"] = {{"slip_over_face", validity_.slip}, {"rotation_degrees", validity_.rotation}};
-  s["energy"] = {{"kinetic", last_.kinetic},
-                 {"strain", last_.strain},
-                 {"spring", last_.spring},
-                 {"form", last_.form},
-                 {"error", nullptr}};
+  const bool known = balance_.known;  // of the balance: only while -monitor_energy is on
+  s["energy"] = {{"kinetic", known ? balance_.sums.kinetic : last_.kinetic},
+                 {"strain", known ? balance_.sums.strain : last_.strain},
+                 {"spring", known ? balance_.sums.spring : last_.spring},
+                 {"form", last_.form}};
+  for (const BalanceTerm &term : kBalanceTerms)
+    if (known) s["energy"][term.name] = term.value(balance_);
+  if (!known) s["energy"]["error"] = nullptr;
   s["stages"] = stage_summaries_;
   return s;
 }

@@ -27,12 +27,13 @@ PetscErrorCode Simulation::ReadRestart() {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Simulation::IdentifyScene() {
+PetscErrorCode Simulation::IdentifyScene(bool wanted) {
   PetscFunctionBeginUser;
-  if (!checkpoints_.Active() && restart_file_.empty()) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!wanted && !checkpoints_.Active() && restart_file_.empty()) PetscFunctionReturn(PETSC_SUCCESS);
   checkpoint_scene_.mesh = &mesh_;
   checkpoint_scene_.nodes = &nodes_;
   checkpoint_scene_.tables = &tables_;
+  checkpoint_scene_.audited = book_.on;
   PetscCall(TakeFingerprint(mesh_, nodes_, face_interface_, tables_, Now().tables, &checkpoint_scene_.fingerprint));
   std::vector<GivenOption> options;
   PetscCall(ListOptions(&options));
@@ -94,18 +95,22 @@ PetscErrorCode Simulation::WriteCheckpoint(PetscInt step) {
   PetscCall(PetscLogEventBegin(events.frame, nullptr, nullptr, nullptr, nullptr));
   CentralState state;
   PetscCall(TSCentralGetState(ts_, &state));
-  const Numbers numbers = {{"step", static_cast<double>(step)},
-                           {"time", state.time},
-                           {"dt", dt_},
-                           {"safety", Now().safety},
-                           {"dt_old", state.dt_old},
-                           {"run_dt", state.dt},
-                           {"base_step", static_cast<double>(state.base_step)},
-                           {"base_time", state.base_time}};
+  Numbers numbers = {{"step", static_cast<double>(step)},
+                     {"time", state.time},
+                     {"dt", dt_},
+                     {"safety", Now().safety},
+                     {"dt_old", state.dt_old},
+                     {"run_dt", state.dt},
+                     {"base_step", static_cast<double>(state.base_step)},
+                     {"base_time", state.base_time}};
+  for (const auto &[name, value] : book_.Numbers()) numbers[name] = value;
   const double *u, *v;
   const Histories *history;
+  const AuditArrays *audit;
   PetscCall(backend_->Download(&u, &v, &history));
-  PetscCall(checkpoints_.Write(checkpoint_scene_, step, numbers, u, v, *history));
+  PetscCall(backend_->DownloadAudit(&audit));
+  PetscCall(checkpoints_.Write(checkpoint_scene_, step, numbers, u, v, *history, *audit));
+  last_checkpoint_ = step;
   PetscCall(PetscLogEventEnd(events.frame, nullptr, nullptr, nullptr, nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

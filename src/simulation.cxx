@@ -33,11 +33,14 @@ PetscErrorCode Simulation::SetUp() {
   PetscCall(SetInitialVelocity());
   PetscCall(CreateTS(0));
   PetscCall(LoadCheckpoint());
+  PetscCall(BeginAudit());
   Phase("files");
   PetscCall(monitors_.ReadOptions(options_, scenes_.size() > 1 ? PETSC_INT_MAX : last_step_));
   PetscCall(options_.CheckLeft());
   PetscCall(OpenOutput());
-  PetscCall(monitors_.Open(comm_, n_breakable_ > 0));
+  std::string energies;
+  for (const BalanceTerm &term : kBalanceTerms) energies += std::string(" ") + term.name;
+  PetscCall(monitors_.Open(comm_, n_breakable_ > 0, energies));
   PetscCall(PetscLogStagePop());
   wall_setup_ = MPI_Wtime() - wall_start_;
   wall_phases_.back().second += MPI_Wtime();
@@ -63,6 +66,7 @@ PetscErrorCode Simulation::ReadInput() {
   PetscCall(options_.Int("ts_central_batch", &batch_, &batch_given_));
   CdemCheck(!batch_given_ || batch_ >= 1, comm_, "-ts_central_batch is %lld; it must be at least 1",
             static_cast<long long>(batch_));
+  PetscCall(ReadAudit());
   PetscCall(ReadRestart());
   PetscCall(CheckViewers(comm_, output_dir_));
   Phase("mesh");
@@ -127,14 +131,15 @@ PetscErrorCode Simulation::CreateBackend() {
     CdemCheck(per_block >= 32 && per_block <= 256 && per_block % 32 == 0, comm_,
               "-elements_per_block is %lld; it must be a multiple of 32 from 32 to 256",
               static_cast<long long>(per_block));
-    PetscCall(CreateCudaBackend(tables_, static_cast<int>(mesh_.n_owned), static_cast<int>(per_block), way, &backend_));
+    PetscCall(CreateCudaBackend(tables_, static_cast<int>(mesh_.n_owned), static_cast<int>(per_block), book_.on, way,
+                                &backend_));
   }
 #else
   (void)per_block;
   CdemCheck(!cuda, comm_, "-device cuda: this cdem was built without CUDA; build it with ./bootstrap build --cuda");
 #endif
   CdemCheck(way != "rows" || cuda, comm_, "-central_way rows is a way of GPUs: use -device cuda, or leave it out");
-  if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), &backend_));
+  if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), book_.on, &backend_));
   device_ = cuda ? "cuda" : "cpu";
   PetscCall(backend_->CreateVecs(&u_, &v_));
   PetscFunctionReturn(PETSC_SUCCESS);

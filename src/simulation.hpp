@@ -2,8 +2,10 @@
 // its steps in advance.cxx, what looks at them in watch.cxx, relaxation in relax.cxx, what it says in report.cxx.
 #pragma once
 #include "core/options.hpp"
+#include "energy.hpp"
 #include "forces/backend.hpp"
 #include "forces/form_check.hpp"
+#include "forces/input_bound.hpp"
 #include "forces/joint_check.hpp"
 #include "forces/step_text.hpp"
 #include "forces/validity.hpp"
@@ -42,6 +44,8 @@ class Simulation final : public Stepper {
   double dt_critical() const { return sharp_known_ ? sharp_.dt : bound_.dt; }  ///< s
   double dt() const { return dt_; }
   Backend &backend() { return *backend_; }
+  /// The energy balance at the last row of -monitor_energy.
+  const Balance &balance() const { return balance_; }
 
   PetscErrorCode Advance(const StepPlan &plan) override;
   PetscInt StepsToNext(PetscInt step, PetscReal time, PetscReal dt) override;
@@ -75,9 +79,19 @@ class Simulation final : public Stepper {
   PetscErrorCode StopMotion();
   PetscErrorCode ReportImbalance();
 
+  // stability.cxx: the energy balance, and runs whose energy grows without a cause
+  PetscErrorCode ReadAudit();
+  PetscErrorCode TakeAudit(AuditSums *sums);
+  PetscErrorCode BeginAudit();
+  PetscErrorCode CheckGrowth(PetscInt step, double time, const Observed &observed);
+  PetscErrorCode KeepGoodState(PetscInt step);
+  PetscErrorCode WriteGoodState(std::string *said);
+  std::string LikelyCause(double dt) const;
+
   // restart.cxx
   PetscErrorCode ReadRestart();
-  PetscErrorCode IdentifyScene();       ///< by what checkpoints know it; the one to start from must be of this scene
+  /// By what checkpoints know it; the one to start from must be of this scene. [in] wanted: also where none is asked for.
+  PetscErrorCode IdentifyScene(bool wanted = false);
   bool KeepsStep(bool dt_given) const;  ///< the step is that of the checkpoint
   PetscErrorCode LoadCheckpoint();
   PetscErrorCode OpenOutput();
@@ -138,6 +152,21 @@ class Simulation final : public Stepper {
   Monitors monitors_;
   HistoryRecorder recorder_;
   FieldOutput fields_;
+
+  // the energy balance, and what is kept of the last state that passed its check
+  EnergyBook book_;
+  Balance balance_;
+  InputBound input_;          // of this stage
+  double start_energy_ = -1;  // J, of this stage; below 0: not yet seen
+  struct GoodState {
+    PetscInt step = -1;
+    double time = 0;
+    CentralState central;
+    std::vector<double> u, v;
+    Histories history;
+    AuditArrays audit;
+  } good_;
+  PetscInt last_frame_ = -1, last_checkpoint_ = -1;  // steps
 
   // checkpoints
   std::string restart_file_;  // "": the run starts at rest

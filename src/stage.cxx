@@ -31,6 +31,7 @@ PetscErrorCode Simulation::BuildStage() {
   tables_.damped = local_ > 0 || (scene.relax && scene.relaxation.scaling);
   tables_.combined = scene.relax && damping == RelaxDamping::kCombined;
   PetscCall(BuildRecords(mesh_, nodes_, scene.boundaries, scene.materials, removed, histories_, &tables_));
+  PetscCall(input_.Begin(tables_));
   PetscCall(CountStage());
   bool plastic, broken;
   PetscCall(FindElementFields(tables_, &plastic, &broken));
@@ -151,6 +152,8 @@ PetscErrorCode Simulation::NextStage() {
   const std::size_t n = 3 * static_cast<std::size_t>(tables_.n_owned);
   const std::vector<double> u_end(u, u + 3 * static_cast<std::size_t>(tables_.n_local)), v_end(v, v + n);
   const Histories before = *history;
+  AuditSums at_end, at_start;
+  if (book_.on) PetscCall(TakeAudit(&at_end));
   PetscCall(TSDestroy(&ts_));
   PetscCall(VecDestroy(&u_));
   PetscCall(VecDestroy(&v_));
@@ -173,6 +176,12 @@ PetscErrorCode Simulation::NextStage() {
     PetscCall(recorder_.SetOrigin(origin_.data()));
   }
   PetscCall(CreateTS(dt_old));
+  if (book_.on) {
+    PetscCall(TakeAudit(&at_start));
+    book_.NextStage(at_end, at_start);
+  }
+  start_energy_ = -1;
+  good_ = GoodState();
   PetscCall(PrintStage());
   wall_stages_ += MPI_Wtime() - begin;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -7,8 +7,12 @@
 
 namespace cdem {
 
+/// Steps between two looks at the energy, and in runs with output between two states that are kept. An observation costs
+/// up to three force evaluations, and on a small scene on a GPU as much as ten steps.
+static constexpr PetscInt kCheckInterval = 2000;
+
 PetscInt Simulation::StepsToNext(PetscInt step, PetscReal time, PetscReal dt) {
-  PetscInt n = monitors_.ToNext(step, time, dt);
+  PetscInt n = std::min(monitors_.ToNext(step, time, dt), kCheckInterval - (step - stage_step_) % kCheckInterval);
   if (!output_dir_.empty()) n = std::min(n, frame_interval_.ToNext(step, time, dt));
   if (relaxation_) n = std::min(n, StepsToCheck(step));
   if (checkpoints_.Active()) n = std::min(n, checkpoints_.ToNext(step, time, dt));
@@ -38,6 +42,22 @@ PetscErrorCode Simulation::Watch(PetscInt step, double time) {
   time_ = Now().relax ? stage_time_ : time;  // a relaxation advances no time
   const double reached = dt > 0 ? dt : dt_;
   const double begin = MPI_Wtime();
+  const bool first = step == first_step_ && !goes_on_;
+  const bool frame = !output_dir_.empty() && (first || last || frame_interval_.Due(step, time, reached));
+  const bool checkpoint = checkpoints_.Due(step, time, reached, last, first_step_);
+  const bool check = (step - stage_step_) % kCheckInterval == 0 || last || frame || checkpoint;
+  Observed observed;
+  if (check || monitors_.Observes(step, time, reached, last)) {
+    PetscCall(PetscLogEventBegin(events.observe, nullptr, nullptr, nullptr, nullptr));
+    std::vector<double> schedule(3 * Now().tables.size());
+    FillSchedule(time - stage_time_, reached, schedule.data());
+    PetscCall(backend_->Observe(MakeArgs(dt, reached), schedule.data(), &observed));
+    PetscCall(SumOverRanks(comm_, &observed));
+    last_ = observed;
+    PetscCall(PetscLogEventEnd(events.observe, nullptr, nullptr, nullptr, nullptr));
+    PetscCall(CheckGrowth(step, time, observed));  // before anything of this state is written
+    if (check) PetscCall(KeepGoodState(step));
+  }
   if (monitors_.Due(step, time, reached, last)) {
     Sight sight;
     sight.step = step;
@@ -46,22 +66,19 @@ PetscErrorCode Simulation::Watch(PetscInt step, double time) {
     sight.time = time;
     for (std::int64_t n : n_cells_) sight.elements += static_cast<double>(n);
     sight.breakable = static_cast<double>(n_breakable_);
-    if (monitors_.Observes(step, time, reached, last)) {
-      PetscCall(PetscLogEventBegin(events.observe, nullptr, nullptr, nullptr, nullptr));
-      std::vector<double> schedule(3 * Now().tables.size());
-      FillSchedule(time - stage_time_, reached, schedule.data());
-      PetscCall(backend_->Observe(MakeArgs(dt, reached), schedule.data(), &sight.observed));
-      PetscCall(SumOverRanks(comm_, &sight.observed));
-      last_ = sight.observed;
-      PetscCall(PetscLogEventEnd(events.observe, nullptr, nullptr, nullptr, nullptr));
+    sight.observed = observed;
+    if (monitors_.Audits(step, time, reached, last)) {
+      AuditSums sums;
+      PetscCall(TakeAudit(&sums));
+      balance_ = book_.Of(sums);
+      sight.energies = {{"kinetic", sums.kinetic}, {"strain", sums.strain}, {"spring", sums.spring}};
+      for (const BalanceTerm &term : kBalanceTerms) sight.energies.push_back({term.name, term.value(balance_)});
     }
     sight.wall = MPI_Wtime() - wall_start_ - wall_output_;
     PetscCall(monitors_.Print(sight, reached, last));
   }
-  const bool first = step == first_step_ && !goes_on_;
-  const bool frame = first || last || frame_interval_.Due(step, time, reached);
-  if (!output_dir_.empty() && (frame || last)) PetscCall(WriteFrame(step, time));
-  if (checkpoints_.Due(step, time, reached, last, first_step_)) PetscCall(WriteCheckpoint(step));
+  if (frame) PetscCall(WriteFrame(step, time));
+  if (checkpoint) PetscCall(WriteCheckpoint(step));
   wall_output_ += MPI_Wtime() - begin;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -92,6 +109,7 @@ PetscErrorCode Simulation::WriteFrame(PetscInt step, double time) {
     reported = since.data();
   }
   PetscCall(fields_.Write(step, time + pseudo_time_, reported, v_now, stress, springs, *history));
+  last_frame_ = step;
   PetscCall(WatchValidity(u));
   const bool end = AtEnd() && (stage_ + 1 == scenes_.size() || (relaxation_ && !balanced_));
   if (end && !recorder_.Empty()) PetscCall(recorder_.RecordLast(step, time_, u, v_now.data()));

@@ -1,6 +1,7 @@
 // One way of launching the bodies: it holds the state (u, v, spring histories) where it computes, advances batches of
 // steps, and observes without touching the state.
 #pragma once
+#include "forces/audit.hpp"
 #include "forces/host_passes.hpp"
 
 #include <memory>
@@ -32,6 +33,7 @@ struct Observed {
   double broken = 0, springs = 0;
   double v_max2 = 0, u_max2 = 0;  ///< largest |v|^2, |u|^2
   double broken_elements = 0;
+  double load_u = 0;  ///< loads and weight times u [J]
 
   /// Unbalanced force ratio: mean out of balance over mean before summation; 0/0 is in balance.
   double Unbalanced() const {
@@ -64,13 +66,21 @@ class Backend {
   virtual PetscErrorCode Download(const double **u, const double **v, const Histories **history) = 0;
   /// Sets u, v [n_owned][3] (host) and the histories: a run that goes on from a checkpoint or an earlier stage.
   virtual PetscErrorCode Upload(const double *u, const double *v, const Histories &history) = 0;
+  /// The balance at u(n), with what is dissipated up to then (collective); only where the audit is on. Arguments as for
+  /// Observe.
+  virtual PetscErrorCode Audit(const StepArgs &next, const double *schedule, AuditSums *sums) = 0;
+  /// Host copies of the audit's memory, and back; empty while it is off.
+  virtual PetscErrorCode DownloadAudit(const AuditArrays **arrays) = 0;
+  virtual PetscErrorCode UploadAudit(const AuditArrays &arrays) = 0;
   /// Wall time of the steps by phase [s]: elements, springs, nodes, halo. Empty where the phases run in one graph.
   virtual std::vector<std::pair<std::string, double>> Phases() const { return {}; }
   /// Waits until everything launched has run.
   virtual PetscErrorCode Synchronize() = 0;
 };
 
-PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, std::unique_ptr<Backend> *backend);
+/// [in] audit: energies are followed from step to step.
+PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, bool audit,
+                                 std::unique_ptr<Backend> *backend);
 
 /// At u(n), from host copies: v(n) [n_owned][3], and the element and spring results. Used by every backend for frames,
 /// and by the host one for its observations. residual, where wanted: forces out of balance [n_owned][3] N.
@@ -83,7 +93,7 @@ PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const doub
 /// True when this machine has a usable GPU.
 bool CudaDeviceThere();
 /// [in] way: its name, or "auto" for the fastest that the scene has. Errors: a way that the scene cannot go.
-PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block,
+PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block, bool audit,
                                  const std::string &way, std::unique_ptr<Backend> *backend);
 #endif
 

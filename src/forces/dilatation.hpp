@@ -11,10 +11,11 @@ PetscErrorCode BuildAveraging(const Mesh &mesh, const std::vector<Material> &mat
 
 /// What one evaluation of the forces passes between elements and nodes on the CPU.
 struct Averages {
-  int rates = 1;                           ///< 2 with beta damping: dilatations of u and of beta v
-  std::vector<double> dilatation;          ///< [n_local][layer][rate]
-  std::vector<double> pressure;            ///< [n_local][layer] Pa, the sum of integrals [N m] at first
-  std::vector<std::vector<double>> force;  ///< per element table that averages, [corner][component][n_pad] N
+  int rates = 1;                                ///< 2 with beta damping: dilatations of u and of beta v
+  std::vector<double> dilatation;               ///< [n_local][layer][rate]
+  std::vector<double> pressure;                 ///< [n_local][layer] Pa, the sum of integrals [N m] at first
+  const std::vector<double> *before = nullptr;  ///< dilatation of the step before, for the energy audit
+  std::vector<std::vector<double>> force;       ///< per element table that averages, [corner][component][n_pad] N
 };
 
 /// Nodal dilatations of u, and of beta v where beta is not 0 (collective).

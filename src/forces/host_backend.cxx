@@ -1,4 +1,6 @@
 #include "forces/backend.hpp"
+#include "forces/host_audit.hpp"
+#include "forces/node_audit.hpp"
 #include "forces/observe.hpp"
 #include "forces/release.hpp"
 #include "core/events.hpp"
@@ -7,8 +9,7 @@
 
 namespace cdem {
 
-/// Pointers to the tables of the nodes on the host.
-static NodeView HostView(const Tables &t, double *u, double *v, const double *schedule, double *history) {
+NodeView HostView(const Tables &t, double *u, double *v, const double *schedule, double *history) {
   NodeView n;
   n.n_owned = t.n_owned;
   n.u = u;
@@ -27,6 +28,7 @@ static NodeView HostView(const Tables &t, double *u, double *v, const double *sc
     n.load_start = t.records.load_start.data();
     n.load_table = t.records.load_table.data();
     n.load = t.records.load.data();
+    n.load_wave = t.records.load_wave.data();
     n.watch = t.records.watch.data();
     if (!t.records.quiet.empty()) {
       n.quiet = t.records.quiet.data();
@@ -65,6 +67,7 @@ PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const doub
     if (v_now) std::copy_n(now, 3, &(*v_now)[3 * static_cast<std::size_t>(i)]);
     sum.kinetic += s.kinetic;
     sum.form += s.form;
+    sum.load_u += s.load_u;
     for (int k = 0; k < 3; ++k) sum.momentum[k] += s.momentum[k];
     sum.residual_sum += s.residual;
     sum.residual_count += s.free;
@@ -86,11 +89,13 @@ namespace {
 
 class HostBackend final : public Backend {
  public:
-  HostBackend(const Tables &tables, int n_owned_cells)
+  HostBackend(const Tables &tables, int n_owned_cells, bool audit)
       : t_(tables), n_owned_cells_(n_owned_cells), u_(3 * static_cast<std::size_t>(tables.n_local), 0.0), v_(u_),
         f_(u_),
         last_(tables.combined ? 3 * static_cast<std::size_t>(tables.n_owned) : 0), history_{StartElements(tables),
-                                                                                            StartSprings(tables)} {}
+                                                                                            StartSprings(tables)} {
+    if (audit) audit_ = StartAudit(tables);
+  }
 
   std::string Name() const override {
     const char *set = kLanes == 8 ? "AVX-512" : kLanes == 4 ? "AVX" : "SSE2";
@@ -124,24 +129,29 @@ class HostBackend final : public Backend {
     *failure = Failure();
     NodeView view = HostView(t_, u_.data(), v_.data(), batch.schedule, batch.history);
     if (t_.combined) view.last = last_.data();
+    const auto nodes = VisitNodes(t_, [&](auto has) {
+      return audit_.Empty() ? &HostBackend::Nodes<decltype(has), false> : &HostBackend::Nodes<decltype(has), true>;
+    });
     for (int step = 0; step < batch.n; ++step) {
+      const StepArgs &args = step == 0 ? batch.first : batch.rest;
+      const AuditPass followed{&audit_, args.dt_old, args.dt, false}, *audit = audit_.Empty() ? nullptr : &followed;
       if (!t_.halo && failure->step >= 0) break;  // several ranks go on together, and tell at the end
       PetscCall(Timed(events.halo, &halo_, [&] { return Halo(); }));
       PetscCall(Timed(events.elements, &elements_, [&] {
         std::fill(f_.begin(), f_.end(), 0.0);
         const double time = StepEnd(batch.base, batch.offset, step, batch.rest.dt);
-        HostElements(t_, u_.data(), v_.data(), t_.beta, time, history_.elements, f_.data());
+        HostElements(t_, u_.data(), v_.data(), t_.beta, time, history_.elements, f_.data(), audit);
         return PETSC_SUCCESS;
       }));
       if (t_.releases) PetscCall(ReleaseSprings(t_, history_.elements, &released_, &history_.springs));
       if (!t_.springs.empty())
         PetscCall(Timed(events.springs, &springs_, [&] {
-          HostSprings(t_, u_.data(), v_.data(), t_.beta, history_.springs, f_.data());
+          HostSprings(t_, u_.data(), v_.data(), t_.beta, history_.springs, f_.data(), audit);
           return PETSC_SUCCESS;
         }));
       PetscCall(Timed(events.nodes, &nodes_, [&] {
-        const StepArgs &args = step == 0 ? batch.first : batch.rest;
-        const int bad = VisitNodes(t_, [&](auto has) { return Nodes<decltype(has)>(view, args, step); });
+        if (!audit_.speed.empty()) audit_.speed = v_;
+        const int bad = (this->*nodes)(view, args, step);
         if (bad >= 0 && failure->step < 0) *failure = Failure{step, bad};
         return PETSC_SUCCESS;
       }));
@@ -158,6 +168,24 @@ class HostBackend final : public Backend {
     PetscCall(ObserveOnHost(t_, n_owned_cells_, u_.data(), v_.data(), history_, next, schedule, &elements, &springs,
                             nullptr, observed));
     PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
+  PetscErrorCode Audit(const StepArgs &next, const double *schedule, AuditSums *sums) override {
+    PetscFunctionBeginUser;
+    PetscCheck(!audit_.Empty(), PETSC_COMM_SELF, PETSC_ERR_ORDER, "the energy audit is off");
+    PetscCall(Halo());
+    NodeView view = HostView(t_, u_.data(), v_.data(), schedule, nullptr);
+    if (t_.combined) view.last = last_.data();
+    PetscCall(AuditOnHost(t_, n_owned_cells_, view, history_, audit_, next, sums));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscErrorCode DownloadAudit(const AuditArrays **arrays) override {
+    *arrays = &audit_;
+    return PETSC_SUCCESS;
+  }
+  PetscErrorCode UploadAudit(const AuditArrays &arrays) override {
+    audit_ = arrays;
+    return PETSC_SUCCESS;
   }
 
   PetscErrorCode Download(const double **u, const double **v, const Histories **history) override {
@@ -195,14 +223,16 @@ class HostBackend final : public Backend {
     }
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  template <class Has>
+  template <class Has, bool kAudit>
   int Nodes(const NodeView &view, const StepArgs &args, int step) {
     int bad = -1;
-    for (int i = 0; i < t_.n_owned; ++i)
-      if (!NodeStep<Has::kRecords, Has::kQuiet, Has::kDamped>(view, args, i, step,
-                                                              &f_[3 * static_cast<std::size_t>(i)]) &&
-          bad < 0)
-        bad = i;
+    NodeWorks works;
+    if (kAudit) works = {audit_.node.data(), audit_.row.data(), t_.records.n};
+    for (int i = 0; i < t_.n_owned; ++i) {
+      const double *f = &f_[3 * static_cast<std::size_t>(i)];
+      if (kAudit) AuditNode<Has::kRecords, Has::kQuiet, Has::kDamped>(view, args, i, step, t_.mass[i], f, false, works);
+      if (!NodeStep<Has::kRecords, Has::kQuiet, Has::kDamped>(view, args, i, step, f) && bad < 0) bad = i;
+    }
     return bad;
   }
   PetscErrorCode Halo() {
@@ -211,7 +241,7 @@ class HostBackend final : public Backend {
     const std::size_t ghosts = 3 * static_cast<std::size_t>(t_.n_owned);
     PetscCall(PetscSFBcastBegin(t_.halo, unit_, u_.data(), u_.data() + ghosts, MPI_REPLACE));
     PetscCall(PetscSFBcastEnd(t_.halo, unit_, u_.data(), u_.data() + ghosts, MPI_REPLACE));
-    if (t_.beta != 0) {
+    if (t_.beta != 0 || !audit_.Empty()) {
       PetscCall(PetscSFBcastBegin(t_.halo, unit_, v_.data(), v_.data() + ghosts, MPI_REPLACE));
       PetscCall(PetscSFBcastEnd(t_.halo, unit_, v_.data(), v_.data() + ghosts, MPI_REPLACE));
     }
@@ -233,6 +263,7 @@ class HostBackend final : public Backend {
   int n_owned_cells_;
   std::vector<double> u_, v_, f_, last_;
   Histories history_;
+  AuditArrays audit_;                      // empty while the audit is off
   std::vector<std::uint8_t> released_;     // of cells, where breaking elements release their interfaces
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;
@@ -241,9 +272,10 @@ class HostBackend final : public Backend {
 
 }  // namespace
 
-PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, std::unique_ptr<Backend> *backend) {
+PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, bool audit,
+                                 std::unique_ptr<Backend> *backend) {
   PetscFunctionBeginUser;
-  *backend = std::make_unique<HostBackend>(tables, n_owned_cells);
+  *backend = std::make_unique<HostBackend>(tables, n_owned_cells, audit);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -19,6 +19,7 @@ struct ElementPass {
   int n_owned_cells;
   ElementResults *results;  ///< NULL but in observing passes
   Averages *averages;       ///< of forms that average
+  const AuditPass *audit;   ///< NULL: the energy audit is off
 };
 
 /// Takes the dilatations of u and beta v from the nodes.
@@ -69,6 +70,22 @@ inline void Commit(const ElementHistory<Lanes> &history, double time, int e, Ele
   }
 }
 
+/// Adds corner forces of the elements from e on to their nodes, one element after the other.
+template <int corners>
+CDEM_HD void ScatterForces(const ElementPass &pass, const ElementTable &t, int e, const Lanes (*force)[3]) {
+  const std::size_t stride = t.n_pad;
+  alignas(sizeof(Lanes)) double out[corners][3][kLanes];
+  for (int a = 0; a < corners; ++a)
+    for (int k = 0; k < 3; ++k) StoreAs(out[a][k], force[a][k]);
+  const int live = std::min(kLanes, t.n - e);
+  for (int l = 0; l < live; ++l) CDEM_UNROLL for (int a = 0; a < corners; ++a) {
+      double *to = pass.f + 3 * static_cast<std::ptrdiff_t>(t.node[a * stride + e + l]);
+      to[0] += out[a][0][l];
+      to[1] += out[a][1][l];
+      to[2] += out[a][2][l];
+    }
+}
+
 template <class Form, class Law, bool kBeta, bool kObserve>
 void ElementLoop(const ElementPass &pass, const ElementTable &t, ElementHistories *h) {
   constexpr int corners = Form::kCorners;
@@ -95,53 +112,25 @@ void ElementLoop(const ElementPass &pass, const ElementTable &t, ElementHistorie
     if constexpr (Law::kState > 0 && !kObserve)
       if (Any(history.changed | history.tension | history.shear)) Commit(history, pass.time, e, h);
 
-    if constexpr (Form::kAverages) KeepForces(pass, t, e, x, force);
-    alignas(sizeof(Lanes)) double out[corners][3][kLanes];
-    for (int a = 0; a < corners; ++a)
-      for (int k = 0; k < 3; ++k) StoreAs(out[a][k], force[a][k]);
-    const int live = std::min(kLanes, t.n - e);
-    for (int l = 0; l < live; ++l) {
-      CDEM_UNROLL for (int a = 0; a < corners && !Form::kAverages; ++a) {
-        double *to = pass.f + 3 * static_cast<std::ptrdiff_t>(t.node[a * stride + e + l]);
-        to[0] += out[a][0][l];
-        to[1] += out[a][1][l];
-        to[2] += out[a][2][l];
-      }
-      if (!kObserve) continue;
+    if constexpr (Form::kAverages)
+      KeepForces(pass, t, e, x, force);
+    else
+      ScatterForces<corners>(pass, t, e, force);
+    for (int l = 0; kObserve && l < std::min(kLanes, t.n - e); ++l) {
       const int cell = t.cell[e + l];
       if (cell >= pass.n_owned_cells) continue;
       ElementResults &results = *pass.results;
       results.energy += sums.energy[l];
+      if (results.each) results.each[cell] = sums.energy[l];
       results.force_count += 3 * corners;
       for (int a = 0; a < corners; ++a)
-        for (int k = 0; k < 3; ++k) results.force_sum += std::fabs(out[a][k][l]);
+        for (int k = 0; k < 3; ++k) results.force_sum += std::fabs(force[a][k][l]);
       if (results.stress)
         for (int i = 0; i < 6; ++i)
           results.stress[6 * static_cast<std::ptrdiff_t>(cell) + i] = sums.stress[i][l] / sums.volume[l];
       if constexpr (kBreaks<Law>) results.broken += Failed<Law>(history)[l] != 0;
     }
   }
-}
-
-/// Runs the loop of a table's form, among those of its shape, and law.
-template <class Forms>
-void RunElements(const ElementPass &pass, const ElementTable &t, ElementHistories *h) {
-  Forms::Visit(t.form, [&](auto form) {
-    using Form = decltype(form);
-    BlockLaws::Visit(t.law, [&](auto law) {
-      using Law = decltype(law);
-      if constexpr (!kFits<Form, Law>) {
-        return;
-      } else if constexpr (Law::kLinear) {  // damping acts inside the law
-        auto loop = pass.beta != 0
-                        ? (pass.results ? ElementLoop<Form, Law, true, true> : ElementLoop<Form, Law, true, false>)
-                        : (pass.results ? ElementLoop<Form, Law, false, true> : ElementLoop<Form, Law, false, false>);
-        loop(pass, t, h);
-      } else {  // or outside of it, where one loop serves scenes with and without
-        (pass.results ? ElementLoop<Form, Law, true, true> : ElementLoop<Form, Law, true, false>)(pass, t, h);
-      }
-    });
-  });
 }
 
 void TetElements(const ElementPass &pass, const ElementTable &t, ElementHistories *h);

@@ -25,6 +25,7 @@ static void Elements(ElementPass pass, std::vector<ElementHistories> &history) {
   if (tables.layers > 0) {
     pass.averages = &averages;
     PetscCallAbort(tables.comm, AverageDilatation(tables, pass.u, pass.v, pass.beta, &averages));
+    pass.averages->before = pass.audit ? &pass.audit->arrays->dilatation : nullptr;
     for (std::size_t g = 0; g < tables.elements.size(); ++g)
       if (tables.elements[g].averages) OfTable(pass, g, history);
     PetscCallAbort(tables.comm, AveragePressure(tables, &averages));
@@ -34,17 +35,18 @@ static void Elements(ElementPass pass, std::vector<ElementHistories> &history) {
       AddAveraged(tables, g, averages, pass.f);
     else
       OfTable(pass, g, history);
+  if (pass.audit && tables.layers > 0) pass.audit->arrays->dilatation = averages.dilatation;
 }
 
 void HostElements(const Tables &tables, const double *u, const double *v, double beta, double time,
-                  std::vector<ElementHistories> &history, double *f) {
-  Elements({tables, u, v, beta, time, f, 0, nullptr, nullptr}, history);
+                  std::vector<ElementHistories> &history, double *f, const AuditPass *audit) {
+  Elements({tables, u, v, beta, time, f, 0, nullptr, nullptr, audit}, history);
 }
 
 void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, const double *v, double beta,
                          const std::vector<ElementHistories> &history, double *f, ElementResults *results) {
   auto &unchanged = const_cast<std::vector<ElementHistories> &>(history);  // an observing pass only reads
-  Elements({tables, u, v, beta, 0, f, n_owned_cells, results, nullptr}, unchanged);
+  Elements({tables, u, v, beta, 0, f, n_owned_cells, results, nullptr, nullptr}, unchanged);
 }
 
 std::vector<ElementHistories> StartElements(const Tables &tables) {

@@ -1,4 +1,4 @@
-#include "forces/host_element_loop.hpp"
+#include "forces/host_element_run.hpp"
 
 namespace cdem {
 

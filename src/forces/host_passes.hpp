@@ -1,6 +1,7 @@
 // The loops over elements, springs and nodes on the CPU: lanes of kLanes elements or springs at a time, scattered one by
 // one in ascending global order, so that the sums do not depend on the partition.
 #pragma once
+#include "forces/audit.hpp"
 #include "forces/bodies.hpp"
 
 namespace cdem {
@@ -29,6 +30,7 @@ struct ElementResults {
   double *stress = nullptr;  ///< [n local cells][6], mean over the element [Pa]
   double broken = 0;         ///< elements broken, of those this rank owns
   double energy = 0;         ///< J, of the elements this rank owns
+  double *each = nullptr;    ///< [n_owned_cells] energy of every element [J]
   double force_sum = 0;      ///< sum of |component| of corner forces [N]
   double force_count = 0;
 };
@@ -37,25 +39,29 @@ struct ElementResults {
 struct SpringResults {
   std::vector<std::vector<double>> force;        ///< per table [3][n_pad] N, on b; empty when not wanted
   std::vector<std::vector<std::uint8_t>> state;  ///< per table [n_pad], as a committing pass would leave it
-  bool want_each = false;
+  std::vector<std::vector<double>> each;         ///< per table [n_pad] energy [J]; of those that are counted
+  bool want_each = false, want_energies = false;
   double energy = 0, force_sum = 0, force_count = 0;
   double broken = 0, count = 0;  ///< springs this rank counts
 };
 
 /// Adds internal forces of all elements to f [n_local][3], with beta != 0 those of damping too; histories are committed,
-/// and what breaks does so at the given time [s].
+/// and what breaks does so at the given time [s]. [in] audit: adds to its arrays; NULL: it is off.
 void HostElements(const Tables &tables, const double *u, const double *v, double beta, double time,
-                  std::vector<ElementHistories> &history, double *f);
+                  std::vector<ElementHistories> &history, double *f, const AuditPass *audit = nullptr);
 /// The same without committing anything.
 void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, const double *v, double beta,
                          const std::vector<ElementHistories> &history, double *f, ElementResults *results);
 
 /// Adds the forces of all springs to f and commits their histories.
 void HostSprings(const Tables &tables, const double *u, const double *v, double beta,
-                 std::vector<SpringHistory> &history, double *f);
+                 std::vector<SpringHistory> &history, double *f, const AuditPass *audit = nullptr);
 /// The same without committing anything.
 void HostSpringsObserve(const Tables &tables, const double *u, const double *v, double beta,
                         const std::vector<SpringHistory> &history, double *f, SpringResults *results);
+
+/// Pointers to the tables of the nodes on the host.
+NodeView HostView(const Tables &t, double *u, double *v, const double *schedule, double *history);
 
 /// Starting histories of all tables.
 std::vector<SpringHistory> StartSprings(const Tables &tables);

@@ -1,5 +1,6 @@
 #include "forces/host_gather.hpp"
 #include "forces/host_passes.hpp"
+#include "forces/spring_audit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +20,56 @@ Spring<double> OneLane(const Spring<Lanes> &s, int l) {
   return one;
 }
 
-template <class Law, bool kBeta, bool kCommit>
+/// Adds what a step dissipated in the springs from i on. [in] s: as it was before the evaluation; outcome, history: of it;
+/// force: total [N].
+template <class Law, bool kBeta>
+void AuditSprings(const AuditPass &audit, const SpringTable &t, int i, int index, const double *v,
+                  const Spring<Lanes> &s, const Outcome<Lanes> &outcome, const Lanes *history,
+                  const std::uint8_t *state, const Lanes force[3]) {
+  const std::size_t stride = t.n_pad;
+  Lanes work[kSpringWorks] = {}, step[3] = {}, lawful[3] = {force[0], force[1], force[2]};
+  Spring<Lanes> again = s;
+  if (kBeta) SpringForce<Law, false>(again, lawful);  // without its viscous part
+  MaskOf<Lanes> may{};
+  SpringBefore<Lanes> before;
+  if constexpr (kDissipates<Law>) {
+    for (int k = 0; k < Law::kState; ++k) before.history[k] = s.history[k];
+    for (int l = 0; l < kLanes; ++l) {
+      before.open[l] = state[l] & kOpen ? -1 : 0;
+      before.tension_lost[l] = state[l] & kTensionLost ? -1 : 0;
+      before.any[l] = state[l] ? -1 : 0;
+    }
+    may = MayDissipate(before, outcome);
+  }
+  if (kBeta || Any(may)) {
+    Lanes at[3];
+    Gather(v, &t.b[i], step);
+    Gather(v, &t.a[i], at);
+    for (int k = 0; k < 3; ++k) step[k] = audit.dt * (step[k] - at[k]);
+  }
+  if constexpr (kDissipates<Law>)
+    if (Any(may)) {
+      again = s;
+      for (int k = 0; k < Law::kState; ++k) again.history[k] = history[k];
+      SpringDissipation<Law>(again, before, outcome, lawful, step, work);
+    }
+  if (kBeta) {
+    std::vector<double> &viscous = audit.arrays->viscous[index];
+    for (int k = 0; k < 3; ++k) {
+      const Lanes now = force[k] - lawful[k];
+      work[kSpringBeta] -= 0.5 * (LoadAs<Lanes>(&viscous[k * stride + i]) + now) * step[k];
+      StoreAs(&viscous[k * stride + i], now);
+    }
+  }
+  if (!kBeta && !Any(may)) return;
+  std::vector<double> &sums = audit.arrays->spring[index];
+  for (int k = 0; k < kSpringWorks; ++k) StoreAs(&sums[k * stride + i], LoadAs<Lanes>(&sums[k * stride + i]) + work[k]);
+}
+
+template <class Law, bool kBeta, bool kCommit, bool kAudit = false>
 void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, const double *v, double beta,
-                SpringHistory *history, double *f, SpringResults *results, int index) {
+                SpringHistory *history, double *f, SpringResults *results, int index,
+                const AuditPass *audit = nullptr) {
   const std::size_t stride = t.n_pad;
   for (int i = 0; i < t.n; i += kLanes) {
     Spring<Lanes> s;
@@ -50,7 +98,13 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
       s.cohesion_lost = LoadAs<Lanes>(cohesion_lost);
       for (int k = 0; k < Law::kState; ++k) s.history[k] = LoadAs<Lanes>(&history->values[k * stride + i]);
     }
+    Spring<Lanes> before;
+    if constexpr (kAudit) before = s;
     const Outcome<Lanes> outcome = SpringForce<Law, kBeta>(s, force);
+    if constexpr (kAudit) {
+      const std::uint8_t *state = Law::kHistory ? &history->state[i] : nullptr;
+      AuditSprings<Law, kBeta>(*audit, t, i, index, v, before, outcome, s.history, state, force);
+    }
 
     std::uint8_t next[kLanes] = {};
     if constexpr (Law::kHistory) {
@@ -76,7 +130,9 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
       if (results->want_each) results->state[index][i + l] = next[l];
       if (!t.counted[i + l]) continue;
       const double one[3] = {out[0][l], out[1][l], out[2][l]};
-      results->energy += Law::Energy(OneLane<Law>(s, l), one);
+      const double energy = Law::Energy(OneLane<Law>(s, l), one);
+      results->energy += energy;
+      if (results->want_energies) results->each[index][i + l] = energy;
       for (int k = 0; k < 3; ++k) results->force_sum += std::fabs(one[k]);
       results->force_count += 3;
       results->count += 1;
@@ -87,26 +143,37 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
 
 template <bool kBeta, bool kCommit>
 void Springs(const Tables &tables, const double *u, const double *v, double beta, std::vector<SpringHistory> &history,
-             double *f, SpringResults *results) {
+             double *f, SpringResults *results, const AuditPass *audit = nullptr) {
   for (std::size_t g = 0; g < tables.springs.size(); ++g)
     JointLaws::Visit(tables.springs[g].law, [&](auto law) {
-      SpringLoop<decltype(law), kBeta, kCommit>(tables, tables.springs[g], u, v, beta, &history[g], f, results,
-                                                static_cast<int>(g));
+      using Law = decltype(law);
+      const SpringTable &t = tables.springs[g];
+      const int index = static_cast<int>(g);
+      if constexpr (kCommit && (kDissipates<Law> || kBeta))
+        if (audit && Audits(tables, t)) {
+          SpringLoop<Law, kBeta, true, true>(tables, t, u, v, beta, &history[g], f, results, index, audit);
+          return;
+        }
+      SpringLoop<Law, kBeta, kCommit>(tables, t, u, v, beta, &history[g], f, results, index);
     });
 }
 
 }  // namespace
 
 void HostSprings(const Tables &tables, const double *u, const double *v, double beta,
-                 std::vector<SpringHistory> &history, double *f) {
+                 std::vector<SpringHistory> &history, double *f, const AuditPass *audit) {
   if (beta != 0)
-    Springs<true, true>(tables, u, v, beta, history, f, nullptr);
+    Springs<true, true>(tables, u, v, beta, history, f, nullptr, audit);
   else
-    Springs<false, true>(tables, u, v, beta, history, f, nullptr);
+    Springs<false, true>(tables, u, v, beta, history, f, nullptr, audit);
 }
 
 void HostSpringsObserve(const Tables &tables, const double *u, const double *v, double beta,
                         const std::vector<SpringHistory> &history, double *f, SpringResults *results) {
+  if (results->want_energies) {
+    results->each.clear();
+    for (const SpringTable &t : tables.springs) results->each.emplace_back(t.n_pad, 0.0);
+  }
   if (results->want_each) {
     results->force.resize(tables.springs.size());
     results->state.resize(tables.springs.size());

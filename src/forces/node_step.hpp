@@ -14,12 +14,14 @@ namespace cdem {
 struct StepArgs {
   double dt = 0, keep = 1, kick = 0;  ///< dt; (1 - alpha h/2)/(1 + alpha h/2); h/(1 + alpha h/2)
   double gravity[3] = {0, 0, 0};
-  double local = 0;    ///< share of the force that opposes the motion (local damping)
-  bool start = false;  ///< v holds v(0), not a half-step velocity
+  double local = 0;              ///< share of the force that opposes the motion (local damping)
+  double alpha = 0, dt_old = 0;  ///< for the energy audit: damping by mass [1/s]; the step before [s], 0 at the start
+  bool start = false;            ///< v holds v(0), not a half-step velocity
 
   bool operator==(const StepArgs &o) const {
     return dt == o.dt && keep == o.keep && kick == o.kick && start == o.start && gravity[0] == o.gravity[0] &&
-           gravity[1] == o.gravity[1] && gravity[2] == o.gravity[2] && local == o.local;
+           gravity[1] == o.gravity[1] && gravity[2] == o.gravity[2] && local == o.local && alpha == o.alpha &&
+           dt_old == o.dt_old;
   }
 };
 
@@ -41,6 +43,7 @@ struct NodeView {
   const int *table = nullptr;
   const int *load_start = nullptr, *load_table = nullptr;
   const double *load = nullptr;
+  const std::uint8_t *load_wave = nullptr;  ///< of a wave that comes in
   const int *watch = nullptr;
   const int *quiet = nullptr;  ///< [n records] row of dashpot or -1; NULL where no node has dashpots
   const double *dashpot = nullptr;

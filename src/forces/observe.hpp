@@ -6,8 +6,9 @@ namespace cdem {
 
 /// A node's share of the sums of an observation.
 struct NodeSums {
-  double kinetic, form, momentum[3], residual, free, v2, u2;
-  double force[3];  ///< out of balance [N]; 0 where prescribed
+  double kinetic, half, form, momentum[3], residual, free, v2, u2;  ///< half: v(n-1/2).m v(n+1/2)/2 [J]
+  double load_u;                                                    ///< loads and weight times u [J]
+  double force[3];                                                  ///< out of balance [N]; 0 where prescribed
 };
 
 /// Velocity of the coming half step of a node with dashpots, as NodeStep has it. [in] a: acceleration without them.
@@ -55,7 +56,9 @@ CDEM_HD NodeSums ObserveNode(const NodeView &n, const StepArgs &s, int i, double
     }
     v_now[k] = now;
     sums.kinetic += 0.5 * mass * now * now;
+    sums.half += 0.5 * mass * earlier * after;
     sums.form += 0.5 * mass * earlier * after + 0.5 * f_int[k] * u;
+    sums.load_u += (mass * a_static[k] + f_int[k]) * u;
     sums.momentum[k] = mass * now;
     sums.v2 += now * now;
     sums.u2 += u * u;

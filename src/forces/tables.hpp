@@ -60,16 +60,17 @@ enum Prescribed { kFree = 0, kVelocity = 1, kDisplacement = 2 };
 /// What only some nodes have: prescribed components, loads, a history. Rows exist for those nodes alone.
 struct NodeRecords {
   int n = 0;
-  std::vector<int> of_node;        ///< [n_owned] row or -1; empty when there are no rows
-  std::vector<std::uint8_t> kind;  ///< [n] Prescribed of x, y, z, two bits each
-  std::vector<double> value;       ///< [n][3] m or m/s, times the table
-  std::vector<int> table;          ///< [n][3] table of each component
-  std::vector<int> load_start;     ///< [n + 1]
-  std::vector<int> load_table;     ///< per load
-  std::vector<double> load;        ///< per load [3] N
-  std::vector<int> watch;          ///< [n] slot of the history buffer, or -1
-  std::vector<int> quiet;          ///< [n] row of dashpot, or -1; empty where no node has dashpots
-  std::vector<double> dashpot;     ///< [quiet nodes][6] C of quiet boundaries [N s/m], in the order of small.hpp
+  std::vector<int> of_node;             ///< [n_owned] row or -1; empty when there are no rows
+  std::vector<std::uint8_t> kind;       ///< [n] Prescribed of x, y, z, two bits each
+  std::vector<double> value;            ///< [n][3] m or m/s, times the table
+  std::vector<int> table;               ///< [n][3] table of each component
+  std::vector<int> load_start;          ///< [n + 1]
+  std::vector<int> load_table;          ///< per load
+  std::vector<double> load;             ///< per load [3] N
+  std::vector<std::uint8_t> load_wave;  ///< per load: 1 where it is that of a wave coming in through a quiet boundary
+  std::vector<int> watch;               ///< [n] slot of the history buffer, or -1
+  std::vector<int> quiet;               ///< [n] row of dashpot, or -1; empty where no node has dashpots
+  std::vector<double> dashpot;          ///< [quiet nodes][6] C of quiet boundaries [N s/m], in the order of small.hpp
 };
 
 /// Everything a backend needs, on the host.

@@ -1,6 +1,7 @@
 // Checkpoints: everything that a run needs to go on, in one HDF5 file checkpoint_<step>.h5, the same on any number of ranks.
 #pragma once
 #include "core/option_list.hpp"
+#include "io/audit_rows.hpp"
 #include "io/fingerprint.hpp"
 #include "io/hdf5_reader.hpp"
 #include "io/history_rows.hpp"
@@ -23,6 +24,7 @@ struct CheckpointScene {
   const Tables *tables = nullptr;
   Fingerprint fingerprint;
   std::vector<GivenOption> options;  ///< of the scene
+  bool audited = false;              ///< the energy audit is on
 };
 
 /// Writes checkpoints when they are due, and keeps the last two.
@@ -37,9 +39,10 @@ class CheckpointWriter {
     return Active() && step != first && (last || interval_.Due(step, time, dt));
   }
   /// Writes one safely (temporary file, onto the disk, rename), then removes all but the last two. [in] u, v: [n_owned][3]
-  /// (host), v at the half step; history: of the same moment. Collective.
+  /// (host), v at the half step; history, audit:
+  /// of the same moment. Collective.
   PetscErrorCode Write(const CheckpointScene &scene, PetscInt step, const Numbers &numbers, const double *u,
-                       const double *v, const Histories &history);
+                       const double *v, const Histories &history, const AuditArrays &audit);
 
  private:
   std::string dir_;
@@ -62,6 +65,8 @@ class CheckpointReader {
   /// Reads u, v [n_owned][3] and the histories of this rank (collective).
   PetscErrorCode ReadState(const CheckpointScene &scene, std::vector<double> *u, std::vector<double> *v,
                            Histories *history);
+  /// Reads what the energy audit had added up; the checkpoint has the number "audit" (collective).
+  PetscErrorCode ReadAudit(const CheckpointScene &scene, AuditArrays *audit);
 
  private:
   PetscErrorCode CheckContent();

@@ -93,6 +93,19 @@ PetscErrorCode PutHistory(const CheckpointScene &scene, const HistoryRows &kind,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode PutAudit(const CheckpointScene &scene, const AuditRows &rows, const AuditArrays &audit,
+                        SummedFile *file) {
+  PetscFunctionBeginUser;
+  PetscSF sf = nullptr;
+  Hdf5Block block;
+  const std::vector<double> values = TakeAuditRows(rows, *scene.mesh, *scene.tables, audit);
+  PetscCall(CreateBlocks(scene.tables->comm, rows.given, rows.name.c_str(), &sf, &block));
+  PetscCall(file->Group(rows.name));
+  PetscCall(file->PutRows("value", H5T_NATIVE_DOUBLE, MPI_DOUBLE, sf, block, rows.width, values.data()));
+  PetscCall(PetscSFDestroy(&sf));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /// Removes all checkpoints of a folder before the last two up to this step; the text of the failure, or "".
 std::string RemoveOld(const std::string &dir, PetscInt step) {
   constexpr std::size_t kKept = 2;
@@ -124,7 +137,8 @@ PetscErrorCode CheckpointWriter::ReadOptions(Options &options, const std::string
 }
 
 PetscErrorCode CheckpointWriter::Write(const CheckpointScene &scene, PetscInt step, const Numbers &numbers,
-                                       const double *u, const double *v, const Histories &history) {
+                                       const double *u, const double *v, const Histories &history,
+                                       const AuditArrays &audit) {
   PetscFunctionBeginUser;
   const MPI_Comm comm = scene.tables->comm;
   int rank;
@@ -134,6 +148,9 @@ PetscErrorCode CheckpointWriter::Write(const CheckpointScene &scene, PetscInt st
   PetscCall(FindHistoryRows(*scene.mesh, *scene.nodes, *scene.tables, &kinds));
   std::int64_t bytes = 48 * static_cast<std::int64_t>(scene.nodes->n_global) + (std::int64_t{1} << 18);
   for (const HistoryRows &kind : kinds) bytes += kind.total * (8 * (kind.places + kind.states + kind.timed) + 1);
+  std::vector<AuditRows> audited;
+  if (scene.audited) PetscCall(FindAuditRows(*scene.mesh, *scene.nodes, *scene.tables, &audited));
+  for (const AuditRows &rows : audited) bytes += 8 * rows.total * rows.width;
 
   SummedFile file(comm, path + ".part");
   PetscCall(file.file().Open(checkpoint::kTop, bytes));
@@ -158,6 +175,7 @@ PetscErrorCode CheckpointWriter::Write(const CheckpointScene &scene, PetscInt st
   PetscCall(file.PutRows("velocity", H5T_NATIVE_DOUBLE, MPI_DOUBLE, sf, block, 3, v));
   PetscCall(PetscSFDestroy(&sf));
   for (const HistoryRows &kind : kinds) PetscCall(PutHistory(scene, kind, history, &file));
+  for (const AuditRows &rows : audited) PetscCall(PutAudit(scene, rows, audit, &file));
   PetscCall(file.Finish(path));
   PetscCall(CheckFailure(comm, rank == 0 ? RemoveOld(dir_, step) : ""));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -101,7 +101,36 @@ PetscErrorCode NumberSprings(const Mesh &mesh, const Nodes &nodes, const Tables 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode OfSpringLaw(const Mesh &mesh, const Nodes &nodes, const Tables &tables, int law, HistoryRows *kind) {
+  PetscFunctionBeginUser;
+  kind->springs = true;
+  JointLaws::Visit(law, [&](auto l) {
+    kind->states = decltype(l)::kState;
+    kind->name = std::string("springs_") + decltype(l)::kName + "_" + std::to_string(kind->states);
+  });
+  for (std::size_t g = 0; g < tables.springs.size(); ++g)
+    if (tables.springs[g].law == law) kind->table = static_cast<int>(g);
+  kind->places = 3;
+  PetscCall(NumberSprings(mesh, nodes, tables, kind));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 }  // namespace
+
+PetscErrorCode FindSpringRows(const Mesh &mesh, const Nodes &nodes, const Tables &tables,
+                              std::vector<HistoryRows> *kinds) {
+  PetscFunctionBeginUser;
+  char there[kMostLaws] = {};
+  for (const SpringTable &t : tables.springs) there[t.law] = 1;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, there, kMostLaws, MPI_CHAR, MPI_MAX, tables.comm));
+  kinds->clear();
+  for (int law = 0; law < kMostLaws; ++law) {
+    if (!there[law]) continue;
+    kinds->emplace_back();
+    PetscCall(OfSpringLaw(mesh, nodes, tables, law, &kinds->back()));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode FindHistoryRows(const Mesh &mesh, const Nodes &nodes, const Tables &tables,
                                std::vector<HistoryRows> *kinds) {
@@ -114,15 +143,7 @@ PetscErrorCode FindHistoryRows(const Mesh &mesh, const Nodes &nodes, const Table
     HistoryRows kind;
     kind.springs = k >= kElementKinds;
     if (kind.springs) {
-      const int law = k - kElementKinds;
-      JointLaws::Visit(law, [&](auto l) {
-        kind.states = decltype(l)::kState;
-        kind.name = std::string("springs_") + decltype(l)::kName + "_" + std::to_string(kind.states);
-      });
-      for (std::size_t g = 0; g < tables.springs.size(); ++g)
-        if (tables.springs[g].law == law) kind.table = static_cast<int>(g);
-      kind.places = 3;
-      PetscCall(NumberSprings(mesh, nodes, tables, &kind));
+      PetscCall(OfSpringLaw(mesh, nodes, tables, k - kElementKinds, &kind));
     } else {
       const Shape shape = static_cast<Shape>(k / (kMostForms * kMostLaws));
       VisitBlock(shape, k / kMostLaws % kMostForms, k % kMostLaws, [&](auto form, auto law) {

@@ -27,6 +27,10 @@ struct HistoryRows {
 PetscErrorCode FindHistoryRows(const Mesh &mesh, const Nodes &nodes, const Tables &tables,
                                std::vector<HistoryRows> *kinds);
 
+/// The same for the springs of all laws, with history or without.
+PetscErrorCode FindSpringRows(const Mesh &mesh, const Nodes &nodes, const Tables &tables,
+                              std::vector<HistoryRows> *kinds);
+
 /// Rows of a table as the file has them, [row][number], and back.
 struct HistoryData {
   std::vector<std::uint8_t> state;

@@ -20,12 +20,20 @@ PetscErrorCode PrintProgress(PetscViewer viewer, const Sight &s) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/// kinetic, strain, spring: form and momentum come behind them.
+constexpr std::size_t kStoredEnergies = 3;
+
 PetscErrorCode PrintEnergy(PetscViewer viewer, const Sight &s) {
   PetscFunctionBeginUser;
   const Observed &o = s.observed;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%lld %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n",
-                                   static_cast<long long>(s.step), s.time, o.kinetic, o.strain, o.spring, o.form,
-                                   o.momentum[0], o.momentum[1], o.momentum[2]));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%lld %.17g", static_cast<long long>(s.step), s.time));
+  for (std::size_t i = 0; i < s.energies.size(); ++i) {
+    if (i == kStoredEnergies)
+      PetscCall(PetscViewerASCIIPrintf(viewer, " %.17g %.17g %.17g %.17g", o.form, o.momentum[0], o.momentum[1],
+                                       o.momentum[2]));
+    PetscCall(PetscViewerASCIIPrintf(viewer, " %.17g", s.energies[i].value));
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -43,21 +51,23 @@ PetscErrorCode PrintConvergence(PetscViewer viewer, const Sight &s) {
 
 const MonitorRow kMonitors[] = {
     {"monitor_progress", nullptr, false, PrintProgress},
-    {"monitor_energy", "# step time kinetic strain spring form momentum_x momentum_y momentum_z", true, PrintEnergy},
+    {"monitor_energy", "# step time kinetic strain spring form momentum_x momentum_y momentum_z", true, PrintEnergy,
+     nullptr, true},
     {"monitor_convergence", "# step time kinetic unbalanced broken", true, PrintConvergence, " broken_blocks"},
 };
 const int kMonitorCount = 3;
 
 PetscErrorCode SumOverRanks(MPI_Comm comm, Observed *o) {
   PetscFunctionBeginUser;
-  double sum[] = {o->kinetic,     o->strain,      o->spring,       o->form,           o->momentum[0],
-                  o->momentum[1], o->momentum[2], o->residual_sum, o->residual_count, o->force_sum,
-                  o->force_count, o->broken,      o->springs,      o->broken_elements};
+  double sum[] = {o->kinetic,     o->strain,          o->spring,         o->form,      o->momentum[0], o->momentum[1],
+                  o->momentum[2], o->residual_sum,    o->residual_count, o->force_sum, o->force_count, o->broken,
+                  o->springs,     o->broken_elements, o->load_u};
   double most[] = {o->v_max2, o->u_max2};
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 14, MPI_DOUBLE, MPI_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 15, MPI_DOUBLE, MPI_SUM, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, comm));
-  *o = Observed{sum[0],  sum[1],  sum[2],  sum[3], {sum[4], sum[5], sum[6]}, sum[7], sum[8], sum[9], sum[10], sum[11],
-                sum[12], most[0], most[1], sum[13]};
+  *o = Observed{sum[0],  sum[1],  sum[2],  sum[3],  {sum[4], sum[5], sum[6]},
+                sum[7],  sum[8],  sum[9],  sum[10], sum[11],
+                sum[12], most[0], most[1], sum[13], sum[14]};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -94,7 +104,7 @@ PetscErrorCode Monitors::ReadOptions(Options &options, PetscInt last_step) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Monitors::Open(MPI_Comm comm, bool breakable) {
+PetscErrorCode Monitors::Open(MPI_Comm comm, bool breakable, const std::string &energies) {
   PetscFunctionBeginUser;
   std::vector<Active> open;
   for (Active &a : active_) {
@@ -113,7 +123,9 @@ PetscErrorCode Monitors::Open(MPI_Comm comm, bool breakable) {
       if (!set || !a.viewer) continue;
     }
     const char *more = breakable && a.row->of_breakable ? a.row->of_breakable : "";
-    if (a.row->header) PetscCall(PetscViewerASCIIPrintf(a.viewer, "%s%s\n", a.row->header, more));
+    if (a.row->header)
+      PetscCall(
+          PetscViewerASCIIPrintf(a.viewer, "%s%s%s\n", a.row->header, more, a.row->audits ? energies.c_str() : ""));
     open.push_back(a);
   }
   active_ = open;
@@ -135,6 +147,12 @@ bool Monitors::Due(PetscInt step, double time, double dt, bool last) const {
 bool Monitors::Observes(PetscInt step, double time, double dt, bool last) const {
   for (const Active &a : active_)
     if (a.row->observes && (last || a.interval.Due(step, time, dt))) return true;
+  return false;
+}
+
+bool Monitors::Audits(PetscInt step, double time, double dt, bool last) const {
+  for (const Active &a : active_)
+    if (a.row->audits && (last || a.interval.Due(step, time, dt))) return true;
   return false;
 }
 

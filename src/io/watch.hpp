@@ -10,6 +10,12 @@ namespace cdem {
 
 class Options;
 
+/// A named number of the energy balance [J], for the monitor's columns.
+struct NamedEnergy {
+  const char *name;
+  double value;
+};
+
 /// What a monitor sees: sums over all ranks at u(n).
 struct Sight {
   PetscInt step = 0, last_step = PETSC_INT_MAX;  ///< last_step: where the run ends, as far as known
@@ -18,6 +24,7 @@ struct Sight {
   double elements = 0;                           ///< of the whole mesh
   double breakable = 0;                          ///< elements of laws that break them
   Observed observed;
+  std::vector<NamedEnergy> energies;  ///< of the audit, in the order of the columns
 };
 
 /// One monitor: its option, what it prints, and when it does by default.
@@ -27,6 +34,7 @@ struct MonitorRow {
   bool observes;  ///< needs the sums of an observation
   PetscErrorCode (*print)(PetscViewer viewer, const Sight &sight);
   const char *of_breakable = nullptr;  ///< end of the header in scenes whose elements may break
+  bool audits = false;                 ///< needs the energy audit, and its names end the header
 };
 /// The table of monitors: a new one is a row here.
 extern const MonitorRow kMonitors[];
@@ -45,10 +53,12 @@ class Monitors {
   /// [in] last_step: number of steps of the run if known, else PETSC_INT_MAX.
   PetscErrorCode ReadOptions(Options &options, PetscInt last_step);
   /// Creates the viewers, and with them their files; when everything else has been checked.
-  PetscErrorCode Open(MPI_Comm comm, bool breakable);
+  /// [in] energies: names of Sight::energies, each after a blank.
+  PetscErrorCode Open(MPI_Comm comm, bool breakable, const std::string &energies);
   PetscInt ToNext(PetscInt step, double time, double dt) const;
   bool Due(PetscInt step, double time, double dt, bool last) const;
   bool Observes(PetscInt step, double time, double dt, bool last) const;
+  bool Audits(PetscInt step, double time, double dt, bool last) const;
   PetscErrorCode Print(const Sight &sight, double dt, bool last);
 
  private:

@@ -134,7 +134,7 @@ PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vecto
 struct Row {
   int kind[3] = {kFree, kFree, kFree}, table[3] = {0, 0, 0}, watch = -1;
   double value[3] = {0, 0, 0};
-  std::map<int, std::array<double, 3>> load;  // by table
+  std::map<std::pair<int, bool>, std::array<double, 3>> load;  // by table; apart: of waves that come in
   bool quiet = false;
   std::array<double, 6> dashpot{};
 };
@@ -155,7 +155,7 @@ void LoadFace(const Mesh &mesh, const Nodes &nodes, const Boundary &b, const Fac
   for (int j = 0; j < size; ++j) {
     const PetscInt node = FaceNode(mesh, nodes, face, j, side);
     if (node < 0 || node >= nodes.n_owned) continue;
-    std::array<double, 3> &load = rows[node].load[b.table];
+    std::array<double, 3> &load = rows[node].load[{b.table, false}];
     for (int g = 0; g < n; ++g) {
       double z = 0;
       for (int i = 0; i < size; ++i) z += points[g].shape[i] * x[i][2];
@@ -180,7 +180,7 @@ void QuietFace(const Mesh &mesh, const Nodes &nodes, const std::vector<Material>
     if (!b.wave) continue;
     double force[3];
     Apply(d->c, b.incoming, force);
-    std::array<double, 3> &load = row.load[b.table];
+    std::array<double, 3> &load = row.load[{b.table, true}];
     for (int k = 0; k < 3; ++k) load[k] += 2 * force[k];
   }
 }
@@ -276,7 +276,8 @@ PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vec
     r.kind.push_back(static_cast<std::uint8_t>(row.kind[0] | row.kind[1] << 2 | row.kind[2] << 4));
     for (int k = 0; k < 3; ++k) r.value.push_back(row.value[k]), r.table.push_back(row.table[k]);
     for (const auto &[table, load] : row.load) {
-      r.load_table.push_back(table);
+      r.load_table.push_back(table.first);
+      r.load_wave.push_back(table.second);
       r.load.insert(r.load.end(), load.begin(), load.end());
     }
     r.load_start.push_back(static_cast<int>(r.load_table.size()));

@@ -88,6 +88,13 @@ struct BrittleLaw : StrengthLawDefaults {
     return out;
   }
 
+  /// For the energy audit: the normal stiffness [N/m] of a spring whose history is this one, at an opening [m], as long
+  /// as nothing new happens to it. [in] lax: nothing holds it together, it carries pressure alone.
+  template <class T>
+  static CDEM_HD T NormalStiffness(const Spring<T> &s, const T *, T opening, MaskOf<T> lax) {
+    return (lax & (opening > T{})) ? T{} : s.kn;
+  }
+
   /// Slip with dilation: of the length that brings the shear force from its trial size to the cap, which grows on the
   /// way as the crack rides up. Returns that cap. The balance falls with the length and is straight but for the end of
   /// the dilation (spent) and for a cap of 0 (the longest slip there can be): so each is told by its sign there.

@@ -163,6 +163,15 @@ struct SofteningLaw : StrengthLawDefaults {
     return out;
   }
 
+  /// For the energy audit, as in BrittleLaw: here it is the damage that says what holds.
+  template <class T>
+  static CDEM_HD T NormalStiffness(const Spring<T> &s, const T *history, T opening, MaskOf<T>) {
+    const T zero = T{}, damage = history[kDamage];
+    const T first = s.param[kTension] * s.area / s.kn, range = s.param[kOpeningEnd] - first;
+    const T secant = (1.0 - damage) * s.param[kTension] * s.area / (first + damage * range);
+    return ((opening > zero) & (damage > zero)) ? (damage < zero + 1.0 ? secant : zero) : s.kn;
+  }
+
   /// Slip that brings the shear force from its trial size to the cap, which changes on the way: with the damage D = max(D,
   /// path / s_f), and with dilation, where the crack is pressed. Returns that cap. The balance
   ///   size - K_s l - cap(l)
