@@ -21,7 +21,7 @@ CDEM_HD void AuditNode(const NodeView &n, const StepArgs &s, int i, int step, do
   if (row < 0 && s.alpha == 0 && !kDamped) return;
   const double *now = kRecords ? n.schedule + 3 * static_cast<long long>(step) * n.n_tables : nullptr;
   double a[3], resisted[3], v_old[3], v[3], path[3], mean[3];
-  Acceleration<kRecords, kDamped>(n, s, i, row, now, f_int, a);
+  Acceleration<kRecords, kDamped>(n, s, i, row, now, n.inverse_mass[i], f_int, a);
   for (int k = 0; k < 3; ++k) {
     resisted[k] = a[k];
     v_old[k] = n.v[3 * static_cast<long long>(i) + k];
