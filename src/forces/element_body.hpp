@@ -32,10 +32,10 @@ struct ElementHistory {
   CDEM_HD void Set(int at, T x) const { StoreAs(value + at * stride, x); }
 };
 
-/// Elements that have failed: broken, in laws of corners anywhere.
+/// Elements that have failed: broken, in laws of corners anywhere (those of an offset say so by the bit of tension).
 template <class Law, class T>
 CDEM_HD MaskOf<T> Failed(const ElementHistory<T> &h) {
-  return Law::kAtCorners ? h.touched | h.changed : h.tension | h.shear;
+  return Law::kAtCorners && !Law::kCarriesOffset ? h.touched | h.changed : h.tension | h.shear;
 }
 
 /// Elastic energy of a stress per volume [J/m^3].
@@ -94,6 +94,7 @@ struct PointOf {
     if (Law::kJudgesMean) changed = changed & (history->tension | history->shear);  // its neighbours in the lanes
     if (!Any(changed)) return;
     history->changed = history->changed | changed;
+    if (Law::kAtCorners && Law::kCarriesOffset) history->tension = history->tension | changed;
     if constexpr (!kObserve) {
       CDEM_UNROLL for (int i = 0; i < Law::kState; ++i) {
         const int at = g * Law::kState + i;

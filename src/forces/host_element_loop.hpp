@@ -63,7 +63,7 @@ inline ElementHistory<Lanes> Recall(const ElementTable &t, ElementHistories *h, 
 inline void Commit(const ElementHistory<Lanes> &history, double time, int e, ElementHistories *h) {
   for (int l = 0; l < kLanes; ++l) {
     const bool broken = history.tension[l] || history.shear[l];
-    if (broken && std::isnan(h->broken_time[e + l])) h->broken_time[e + l] = time;
+    if (broken && !h->broken_time.empty() && std::isnan(h->broken_time[e + l])) h->broken_time[e + l] = time;
     h->state[e + l] =
         static_cast<std::uint8_t>((history.touched[l] || history.changed[l] ? kTouched : 0) |
                                   (history.tension[l] ? kBrokenTension : 0) | (history.shear[l] ? kBrokenShear : 0));

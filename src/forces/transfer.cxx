@@ -116,7 +116,7 @@ void TakeElement(const Tables &old, const ElementTable &from, const ElementHisto
           for (int g = 0; carried && g < Form::kPoints; ++g)
             for (int i = 0; i < 6; ++i)
               offset[g][i] = before.value[static_cast<std::size_t>(g * Old::kState + i) * from.n_pad + row];
-      } else {
+      } else if constexpr (!Form::kAtCorners) {  // the others cannot change their stiffness
         if constexpr (Form::kAverages)
           for (int a = 0; a < 4; ++a) of_node[a] = averages.dilatation[from.Layered(old.layers, a, row)];
         PresentOffsets<Form, Old>(old, from, before, row, u, of_node, param, offset);

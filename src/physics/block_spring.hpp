@@ -37,8 +37,15 @@ struct SpringBlock : BlockLawDefaults {
   /// Stress [Pa] of a strain (true shears) at a corner. [in] area: vectors along the normals of its three faces, of any
   /// length. [in,out] state: its broken faces. Returns whether another one broke.
   template <class T>
-  static CDEM_HD MaskOf<T> Stress(const T *param, const T strain[6], const T area[3][3], T state[1], T stress[6]) {
+  static CDEM_HD MaskOf<T> Stress(const T *param, const T strain[6], const T area[3][3], T state[kState], T stress[6]) {
     Elastic::Stress(param, strain, stress);
+    return Judge(param, area, state, stress);
+  }
+
+ protected:
+  /// Takes an elastic stress to what the corner can carry; the mask of those where another face broke.
+  template <class T>
+  static CDEM_HD MaskOf<T> Judge(const T *param, const T area[3][3], T state[1], T stress[6]) {
     const MaskOf<T> fails = (state[0] > T{}) | Breaks(param, stress, area[0]) | Breaks(param, stress, area[1]) |
                             Breaks(param, stress, area[2]);
     if (!Any(fails)) return fails;
@@ -118,6 +125,20 @@ struct SpringBlock : BlockLawDefaults {
       stress[kYZ] += n[1] * dt[2] + n[2] * dt[1] - along * n[1] * n[2];
       stress[kXZ] += n[0] * dt[2] + n[2] * dt[0] - along * n[0] * n[2];
     }
+  }
+};
+
+/// Discrete springs that carry an offset: their strain is measured from it. Since they all have a history from the start, an
+/// element of which something is broken says so by itself.
+struct SpringBlockOffset : SpringBlock {
+  static constexpr bool kCarriesOffset = true;
+  static constexpr int kState = 7;  ///< the offset; broken faces of the corner
+  template <class T>
+  static CDEM_HD MaskOf<T> Stress(const T *param, const T strain[6], const T area[3][3], T state[kState], T stress[6]) {
+    T e[6];
+    CDEM_UNROLL for (int i = 0; i < 6; ++i) e[i] = strain[i] - state[i];
+    Elastic::Stress(param, e, stress);
+    return Judge(param, area, state + 6, stress);
   }
 };
 

@@ -11,7 +11,8 @@
 
 namespace cdem {
 
-using BlockLaws = LawList<Elastic, DruckerPrager, MohrCoulomb, Breakage, SpringBlock, ElasticOffset, BreakageOffset>;
+using BlockLaws = LawList<Elastic, DruckerPrager, MohrCoulomb, Breakage, SpringBlock, ElasticOffset, BreakageOffset,
+                          SpringBlockOffset>;
 using JointLaws = LawList<JointElastic, JointBrittle, JointBrittleDilating, JointSoftening, JointSofteningDilating,
                           JointElasticOffset>;
 

@@ -30,10 +30,12 @@ void DeriveJoint(const Joint &joint, const double *property, double *param) {
 PetscErrorCode CarryOffset(MPI_Comm comm, const std::string &region, Material *material) {
   PetscFunctionBeginUser;
   const int law = BlockLaws::Carrier(material->law);
+  bool at_corners = false;
+  BlockLaws::Visit(material->law, [&](auto l) { at_corners = decltype(l)::kAtCorners; });
   CdemCheck(
-      law >= 0, comm,
-      "region '%s': blocks of discrete springs are measured from no stress: they cannot have -block_<region>_stress, "
-      "nor change their law or stiffness in a stage",
+      !at_corners || !material->restiffened, comm,
+      "region '%s': blocks of discrete springs cannot change their law or stiffness in a stage: their forces would "
+      "jump",
       region.c_str());
   CdemCheck(
       material->element != "onepoint" || !material->restiffened, comm,

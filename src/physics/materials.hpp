@@ -61,7 +61,7 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
 PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &names, const StrengthChange &change,
                           std::vector<Joint> *joints, std::vector<std::string> *remarks);
 
-/// Takes the law of the same name that carries an offset. Error: there is none.
+/// Takes the law of the same name that carries an offset. Error: the form cannot change its stiffness without a jump.
 PetscErrorCode CarryOffset(MPI_Comm comm, const std::string &region, Material *material);
 void CarryOffset(Joint *joint);
 
