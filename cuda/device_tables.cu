@@ -204,6 +204,7 @@ PetscErrorCode DeviceTables::DownloadHistories(Histories *histories) const {
     PetscCall(springs_[g].state.Download(&histories->springs[g].state));
     PetscCall(springs_[g].history.Download(&histories->springs[g].values));
   }
+  PetscCall(last_.Download(&histories->acceleration));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -218,6 +219,8 @@ PetscErrorCode DeviceTables::UploadHistories(const Histories &histories) {
     PetscCall(springs_[g].state.Overwrite(histories.springs[g].state));
     PetscCall(springs_[g].history.Overwrite(histories.springs[g].values));
   }
+  const std::vector<double> &last = histories.acceleration;  // empty: the next step is the first one of its damping
+  PetscCall(last_.Overwrite(last.empty() ? std::vector<double>(last_.size(), 0.0) : last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -14,6 +14,8 @@ PetscErrorCode Simulation::Solve() {
   PetscCall(backend_->Synchronize());
   wall_start_ = MPI_Wtime();
   for (bool more = true; more;) {
+    stage_begin_ = MPI_Wtime();
+    output_before_ = wall_output_;
     PetscCall(TSSolve(ts_, nullptr));
     PetscCall(backend_->Synchronize());
     PetscCall(EndStage());

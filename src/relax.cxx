@@ -1,6 +1,7 @@
 // The part of Simulation that brings a body to rest: checks of balance, and what the controller makes of them.
 #include "core/error.hpp"
 #include "core/events.hpp"
+#include "core/exact_sum.hpp"
 #include "simulation.hpp"
 
 #include <algorithm>
@@ -12,6 +13,15 @@ namespace cdem {
 /// a multiple of that is always stopped where it began, and never ends.
 static constexpr PetscInt kPeakInterval = 1;
 
+/// Adds the kinetic energies of the owned nodes [J].
+static void AddKinetic(const Tables &tables, const double *v, ExactSum *sum) {
+  for (int i = 0; i < tables.n_owned; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double speed = v[3 * static_cast<std::size_t>(i) + k];
+      sum->Add(0.5 * tables.mass[i] * speed * speed);
+    }
+}
+
 /// Steps until the controller looks again.
 PetscInt Simulation::StepsToCheck(PetscInt step) const {
   const PetscInt since = step - stage_step_, interval = relaxation_->plan().interval;
@@ -22,6 +32,16 @@ PetscInt Simulation::StepsToCheck(PetscInt step) const {
 /// Kinetic energy of the half-step velocities [J], over all ranks; on the device, where v is there.
 PetscErrorCode Simulation::Kinetic(double *energy) {
   PetscFunctionBeginUser;
+  if (device_ == "cpu") {
+    const PetscScalar *v;
+    ExactSum sum;
+    PetscCall(VecGetArrayRead(v_, &v));
+    AddKinetic(tables_, v, &sum);
+    PetscCall(VecRestoreArrayRead(v_, &v));
+    PetscCall(ExactSum::OverRanks(comm_, &sum, 1));
+    *energy = sum.Value();
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   if (!mass_) {
     PetscScalar *mass;
     PetscCall(VecDuplicate(v_, &mass_));
@@ -63,12 +83,19 @@ PetscErrorCode Simulation::WatchBalance(TS ts) {
     double kinetic;
     PetscCall(run->Kinetic(&kinetic));
     if (run->relaxation_->PassedPeak(kinetic)) PetscCall(run->StopMotion());
+    run->to_keep_ = run->relaxation_->memory();
   }
   if (since % plan.interval == 0 || run->AtEnd()) PetscCall(run->CheckBalance(step));
   if (run->balanced_) PetscCall(TSSetConvergedReason(ts, TS_CONVERGED_USER));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+bool Simulation::FindsDamping() const {
+  return relaxation_->plan().damping == RelaxDamping::kRayleigh && Now().alpha == 0;
+}
+
+/// Looks at the balance. A look that is not due, at an end by number of steps, steers nothing: a run that goes on from there
+/// is the one that would not have ended.
 PetscErrorCode Simulation::CheckBalance(PetscInt step) {
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.observe, nullptr, nullptr, nullptr, nullptr));
@@ -78,27 +105,33 @@ PetscErrorCode Simulation::CheckBalance(PetscInt step) {
   PetscCall(TSCentralGetLastStep(ts_, &dt_old));
   PetscCall(TSGetTime(ts_, &time));
   PetscCall(backend_->Download(&u, &v, &history));
-  std::vector<double> schedule(3 * Now().tables.size()), residual;
+  std::vector<double> schedule(3 * Now().tables.size()), v_now;
   FillSchedule(time - stage_time_, dt_, schedule.data());
   ElementResults elements;
   SpringResults springs;
   PetscCall(ObserveOnHost(tables_, static_cast<int>(mesh_.n_owned), u, v, *history, MakeArgs(dt_old, dt_),
-                          schedule.data(), &elements, &springs, nullptr, &last_, &residual));
+                          schedule.data(), &elements, &springs, &v_now, &last_, &residual_));
   PetscCall(SumOverRanks(comm_, &last_));
-  double path[2] = {0, 0};
+  ExactSum sums[3];  // kinetic energy, and those of the path since the last check: what steers must not know the ranks
+  AddKinetic(tables_, v_now.data(), &sums[0]);
   if (step > stage_step_)
     for (int i = 0; i < tables_.n_owned; ++i)
       for (int k = 0; k < 3; ++k) {
         const std::size_t at = 3 * static_cast<std::size_t>(i) + k;
-        const double du = residual[at] == 0 ? 0 : u[at] - last_u_[at];  // prescribed components have no residual
-        path[0] += du * (last_residual_[at] - residual[at]);
-        path[1] += du * tables_.mass[i] * du;
+        const double du = residual_[at] == 0 ? 0 : u[at] - last_u_[at];  // prescribed components have no residual
+        sums[1].Add(du * (last_residual_[at] - residual_[at]));
+        sums[2].Add(du * tables_.mass[i] * du);
       }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, path, 2, MPI_DOUBLE, MPI_SUM, comm_));
-  last_u_.assign(u, u + 3 * static_cast<std::size_t>(tables_.n_owned));
-  last_residual_ = std::move(residual);
-  balanced_ = relaxation_->Check({last_.kinetic, last_.strain + last_.spring, last_.Unbalanced(), path[0], path[1]});
-  if (relaxation_->plan().damping == RelaxDamping::kRayleigh && Now().alpha == 0) alpha_ = relaxation_->Alpha();
+  PetscCall(ExactSum::OverRanks(comm_, sums, 3));
+  to_keep_ = relaxation_->memory();
+  balanced_ = relaxation_->Check(
+      {sums[0].Value(), last_.strain + last_.spring, last_.Unbalanced(), sums[1].Value(), sums[2].Value()});
+  if ((step - stage_step_) % relaxation_->plan().interval == 0) {
+    to_keep_ = relaxation_->memory();
+    last_u_.assign(u, u + 3 * static_cast<std::size_t>(tables_.n_owned));
+    last_residual_ = residual_;
+    if (FindsDamping()) alpha_ = relaxation_->Alpha();
+  }
   PetscCall(PetscLogEventEnd(events.observe, nullptr, nullptr, nullptr, nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -107,7 +140,7 @@ PetscErrorCode Simulation::ReportImbalance() {
   PetscFunctionBeginUser;
   double largest = 0, x[3] = {0, 0, 0};
   for (int i = 0; i < tables_.n_owned; ++i) {
-    const double *force = &last_residual_[3 * static_cast<std::size_t>(i)];
+    const double *force = &residual_[3 * static_cast<std::size_t>(i)];
     const double size = std::sqrt(Dot(force, force));
     if (size <= largest) continue;
     largest = size;

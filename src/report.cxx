@@ -165,7 +165,7 @@ nlohmann::json Simulation::Summary() const {
   s["time"] = time_;
   s["wall"] = {{"setup", wall_setup_}, {"solve", wall_solve_}, {"output", wall_output_}};
   for (const auto &[phase, seconds] : wall_phases_) s["wall"]["setup_" + phase] = seconds;
-  for (const auto &[phase, seconds] : backend_->Phases()) s["wall"]["solve_" + phase] = seconds;
+  for (const auto &[phase, seconds] : solve_phases_) s["wall"]["solve_" + phase] = seconds;
   s["element_steps_per_second"] = wall_solve_ > 0 ? n * static_cast<double>(steps_ - first_step_) / wall_solve_ : 0;
   PetscLogDouble bytes = 0;
   (void)PetscMemoryGetCurrentUsage(&bytes);
@@ -192,6 +192,9 @@ nlohmann::json Simulation::StageSummary() const {
        {"elements", "springs", "time", "dt", "dt_critical", "dt_bound", "broken_springs", "energy", "validity"})
     stage[key] = all[key];
   stage["steps"] = steps_ - stage_step_;
+  const double output = wall_output_ - output_before_;
+  stage["wall"] = {{"solve", MPI_Wtime() - stage_begin_ - output}, {"output", output}};
+  for (const auto &[phase, seconds] : backend_->Phases()) stage["wall"]["solve_" + phase] = seconds;
   if (n_breakable_ > 0) stage["broken_blocks"] = all["broken_blocks"];
   if (relaxation_) {
     stage["balanced"] = balanced_;

@@ -142,7 +142,9 @@ PetscErrorCode ReadScenes(Options &options, const Mesh &mesh, const std::vector<
     scene.strength_factor = before.strength_factor;
     if (staged) options.SetStages({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i) + 1});
     PetscCall(ReadScene(options, mesh, interfaces, &scene, &said));
-    if (i == 0) RemarkUnheldWeight(scene.boundaries, scene.gravity, &said);
+    const auto drops = [](const Boundary &b) { return b.lets_go && !b.keeps_reactions; };
+    if (i == 0 || std::any_of(scene.boundaries.begin(), scene.boundaries.end(), drops))
+      RemarkUnheldWeight(scene.boundaries, scene.gravity, &said);
     scenes->push_back(scene);
     before = scene;
   }

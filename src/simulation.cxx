@@ -27,6 +27,7 @@ PetscErrorCode Simulation::SetUp() {
   PetscCall(ReadInput());
   PetscCall(BuildModel());
   PetscCall(IdentifyScene());
+  PetscCall(LoadHeld());
   Phase("device");
   PetscCall(CreateBackend());
   PetscCall(SetInitialStress());
@@ -80,8 +81,10 @@ PetscErrorCode Simulation::ReadInput() {
   Phase("scene");
   PetscCall(SelectInterfaces(mesh_, options_, joint_faces, &interface_names_, &face_interface_));
   PetscCall(ReadScenes(options_, mesh_, interface_names_, &scenes_, &remarks_));
-  CdemCheck((!Staged() && !Now().relax) || (!checkpoints_.Active() && restart_file_.empty()), comm_,
-            "checkpoints and -restart are for dynamic runs without stages so far: take -checkpoint_interval out");
+  CdemCheck(first_stage_ < scenes_.size(), comm_,
+            "%s is of stage number %zu, and there are %zu: the stages up to that of a checkpoint must be the same",
+            restart_file_.c_str(), first_stage_ + 1, scenes_.size());
+  PetscCall(ChooseDevice());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -97,50 +100,60 @@ PetscErrorCode Simulation::BuildModel() {
     remarks_.push_back("histories are declared but there is no -output DIR: they are not recorded");
     histories_.clear();
   }
-  // Every stage is built and checked before anything is computed; the first one stays.
+  // Every stage is built and checked before anything is computed; the one that comes first stays.
+  if (scenes_.size() > 1) Phase("stages");
   for (stage_ = scenes_.size(); stage_-- > 0;) {
-    Phase(stage_ > 0 ? "stages" : "tables");
+    if (stage_ == first_stage_) continue;
     PetscCall(BuildStage());
-    if (stage_ == 0) Phase("step_bound");
     PetscCall(ChooseStep());
-    if (stage_ == 0) break;
   }
+  stage_ = first_stage_;
+  Phase("tables");
+  PetscCall(BuildStage());
+  Phase("step_bound");
+  PetscCall(ChooseStep());
   PetscCall(DMDestroy(&mesh_.dm));  // from here on the flat arrays serve
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Simulation::CreateBackend() {
+PetscErrorCode Simulation::ChooseDevice() {
   PetscFunctionBeginUser;
-  std::string way = "auto";
   bool deterministic = false;
-  PetscInt per_block = 32;
-  PetscCall(options_.Word("central_way", &way));
+  PetscCall(options_.Word("central_way", &way_));
   PetscCall(options_.Flag("deterministic", &deterministic));
-  CdemCheck(way != "rows" || !deterministic, comm_,
+  CdemCheck(way_ != "rows" || !deterministic, comm_,
             "-central_way rows and -deterministic: sums of the rows have another order; leave one of them out");
-  if (deterministic) way = "reference";
+  if (deterministic) way_ = "reference";
   bool cuda = device_ == "cuda";
 #ifdef CDEM_HAVE_CUDA
   if (device_ == "auto") cuda = CudaDeviceThere();
   CdemCheck(!cuda || CudaDeviceThere(), comm_,
             "-device cuda: this machine shows no usable NVIDIA GPU; use -device cpu");
-  CdemCheck(!cuda || !tables_.releases, comm_,
+  bool releases = false;
+  for (const Scene &scene : scenes_)
+    for (const Material &m : scene.materials) releases = releases || m.releases;
+  CdemCheck(!cuda || !releases, comm_,
             "-block_<region>_release_interfaces is computed on the CPU only so far: use -device cpu, or leave it out");
-  if (cuda) {
-    PetscCall(options_.Int("elements_per_block", &per_block));
-    CdemCheck(per_block >= 32 && per_block <= 256 && per_block % 32 == 0, comm_,
-              "-elements_per_block is %lld; it must be a multiple of 32 from 32 to 256",
-              static_cast<long long>(per_block));
-    PetscCall(CreateCudaBackend(tables_, static_cast<int>(mesh_.n_owned), static_cast<int>(per_block), book_.on, way,
-                                &backend_));
-  }
+  if (cuda) PetscCall(options_.Int("elements_per_block", &per_block_));
+  CdemCheck(per_block_ >= 32 && per_block_ <= 256 && per_block_ % 32 == 0, comm_,
+            "-elements_per_block is %lld; it must be a multiple of 32 from 32 to 256",
+            static_cast<long long>(per_block_));
 #else
-  (void)per_block;
   CdemCheck(!cuda, comm_, "-device cuda: this cdem was built without CUDA; build it with ./bootstrap build --cuda");
 #endif
-  CdemCheck(way != "rows" || cuda, comm_, "-central_way rows is a way of GPUs: use -device cuda, or leave it out");
-  if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), book_.on, &backend_));
+  CdemCheck(way_ != "rows" || cuda, comm_, "-central_way rows is a way of GPUs: use -device cuda, or leave it out");
   device_ = cuda ? "cuda" : "cpu";
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::CreateBackend() {
+  PetscFunctionBeginUser;
+#ifdef CDEM_HAVE_CUDA
+  if (device_ == "cuda")
+    PetscCall(CreateCudaBackend(tables_, static_cast<int>(mesh_.n_owned), static_cast<int>(per_block_), book_.on, way_,
+                                &backend_));
+#endif
+  if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), book_.on, &backend_));
   PetscCall(backend_->CreateVecs(&u_, &v_));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -148,8 +161,8 @@ PetscErrorCode Simulation::CreateBackend() {
 PetscErrorCode Simulation::SetInitialStress() {
   PetscFunctionBeginUser;
   const std::vector<Material> &materials = Now().materials;
-  if (std::none_of(materials.begin(), materials.end(), [](const Material &m) { return m.stressed; }))
-    PetscFunctionReturn(PETSC_SUCCESS);
+  const bool stressed = std::any_of(materials.begin(), materials.end(), [](const Material &m) { return m.stressed; });
+  if (!stressed || !restart_file_.empty()) PetscFunctionReturn(PETSC_SUCCESS);
   Histories start;
   StartUnderStress(mesh_, nodes_, materials, tables_, &start);
   const std::vector<double> rest(3 * static_cast<std::size_t>(tables_.n_owned), 0.0);

@@ -16,6 +16,8 @@
 #include "scene.hpp"
 #include "time/ts_central.hpp"
 
+#include <map>
+
 namespace cdem {
 
 class Simulation final : public Stepper {
@@ -55,6 +57,7 @@ class Simulation final : public Stepper {
   void Phase(const char *name);
   PetscErrorCode ReadInput();
   PetscErrorCode BuildModel();
+  PetscErrorCode ChooseDevice();
   PetscErrorCode CreateBackend();
   PetscErrorCode SetInitialStress();
   PetscErrorCode SetInitialVelocity();
@@ -69,6 +72,8 @@ class Simulation final : public Stepper {
   PetscErrorCode NextStage();
   PetscErrorCode EndStage();
   PetscErrorCode PrintStage();
+  /// Reactions of the supports at the end of the stage, where the next one keeps some (else empty) [n_owned][3] N.
+  PetscErrorCode FindReactions(std::vector<double> *reaction);
   nlohmann::json StageSummary() const;
 
   // relaxation
@@ -78,6 +83,7 @@ class Simulation final : public Stepper {
   PetscInt StepsToCheck(PetscInt step) const;
   PetscErrorCode StopMotion();
   PetscErrorCode ReportImbalance();
+  bool FindsDamping() const;  ///< the checks choose the damping by mass
 
   // stability.cxx: the energy balance, and runs whose energy grows without a cause
   PetscErrorCode ReadAudit();
@@ -90,11 +96,16 @@ class Simulation final : public Stepper {
 
   // restart.cxx
   PetscErrorCode ReadRestart();
+  bool Resumes() const { return !restart_file_.empty() && stage_ == first_stage_; }  ///< the stage is the checkpoint's
   /// By what checkpoints know it; the one to start from must be of this scene. [in] wanted: also where none is asked for.
   PetscErrorCode IdentifyScene(bool wanted = false);
   bool KeepsStep(bool dt_given) const;  ///< the step is that of the checkpoint
+  PetscErrorCode CheckEnd();            ///< it lies behind the checkpoint
   PetscErrorCode LoadCheckpoint();
+  PetscErrorCode LoadRelaxation();
+  PetscErrorCode LoadHeld();
   PetscErrorCode OpenOutput();
+  PetscErrorCode WriteMeshes();  ///< for the frames, of what is there in the present stage
   PetscErrorCode WriteCheckpoint(PetscInt step);
   PetscErrorCode PrintHeader();
   PetscErrorCode PrintJointSets();
@@ -134,19 +145,25 @@ class Simulation final : public Stepper {
   PetscInt last_step_ = PETSC_INT_MAX;       // of the stage, as far as known
   double stage_time_ = 0, pseudo_time_ = 0;  // s; at the stage's beginning; spent in relaxations before it
   PetscInt stage_step_ = 0;                  // at the stage's beginning
-  std::vector<double> origin_;               // [n_owned][3] of reported displacements [m]; empty: none was reset
+  std::vector<double> origin_;               // [n_local][3] of reported displacements [m]; empty: none was reset
+
+  bool holds_ = false;        // forces stay where supports have left:
+  std::vector<double> held_;  // [n_owned][3] N
 
   // relaxation
   std::unique_ptr<Relaxation> relaxation_;      // NULL in dynamic stages
   double alpha_ = 0, local_ = 0;                // damping by mass now [1/s], and of nodes
-  std::vector<double> last_u_, last_residual_;  // at the last check
+  std::vector<double> last_u_, last_residual_;  // at the last regular check
+  std::vector<double> residual_;                // at the last check
+  RelaxMemory to_keep_;                         // after the last regular check, for checkpoints
   bool balanced_ = false;
   std::string failure_;  // why the run ended early; "": it did not
 
   // watching
   std::string output_dir_, device_ = "auto";
   bool output_overwrite_ = false;
-  PetscInt batch_ = 0;
+  PetscInt batch_ = 0, per_block_ = 32;
+  std::string way_ = "auto";
   bool batch_given_ = false;
   Interval frame_interval_;
   Monitors monitors_;
@@ -169,9 +186,10 @@ class Simulation final : public Stepper {
   PetscInt last_frame_ = -1, last_checkpoint_ = -1;  // steps
 
   // checkpoints
-  std::string restart_file_;  // "": the run starts at rest
-  bool goes_on_ = false;      // in the output folder of the run that wrote it
-  PetscInt first_step_ = 0;   // where this run starts
+  std::string restart_file_;     // "": the run starts at rest
+  bool goes_on_ = false;         // in the output folder of the run that wrote it
+  std::size_t first_stage_ = 0;  // where this run starts
+  PetscInt first_step_ = 0;
   double first_time_ = 0;
   CheckpointReader restart_;
   CheckpointWriter checkpoints_;
@@ -190,6 +208,8 @@ class Simulation final : public Stepper {
   bool with_plastic_ = false, with_broken_ = false;  // fields of some stage
   nlohmann::json stage_summaries_ = nlohmann::json::array();
   double wall_stages_ = 0;
+  double stage_begin_ = 0, output_before_ = 0;    // when the stage began; wall_output_ by then
+  std::map<std::string, double> solve_phases_{};  // of all stages so far
 };
 
 }  // namespace cdem

@@ -3,6 +3,7 @@
 #include "core/events.hpp"
 #include "core/petsc_refusal.hpp"
 #include "forces/references.hpp"
+#include "loads/supports.hpp"
 #include "simulation.hpp"
 
 #include <algorithm>
@@ -76,8 +77,10 @@ PetscErrorCode Simulation::ChooseStep() {
   // A force that opposes the motion decelerates by up to 1 + local of it: as a body that much stiffer.
   if (local_ > 0 && bound_known_)
     bound_.dt = CriticalStep((1 + local_) * (bound_.element_w2 + bound_.spring_w2), scene.beta);
-  if (local_ > 0 && sharp_known_) sharp_.dt = CriticalStep((1 + local_) * sharp_.w2, scene.beta);
-  const double left = scene.end_time - first_time_;
+  if (local_ > 0 && sharp_known_)
+    sharp_.dt = std::max(bound_.dt, RoundedStep(CriticalStep((1 + local_) * sharp_.w2, scene.beta)));
+  const PetscInt done = Resumes() ? first_step_ - stage_step_ : 0;
+  const double left = scene.end_time - (Resumes() ? first_time_ - stage_time_ : 0);
   if (!given) {
     dt_ = scene.safety * dt_critical();
     CdemCheck(std::isfinite(dt_), comm_, "the critical step is not finite: give -ts_dt");
@@ -90,8 +93,8 @@ PetscErrorCode Simulation::ChooseStep() {
   }
   last_step_ = PETSC_INT_MAX;
   if (!scene.relax && scene.has_end_step) last_step_ = stage_step_ + scene.end_step;
-  if (!scene.relax && scene.has_end_time && left / dt_ < static_cast<double>(last_step_ - stage_step_ - first_step_))
-    last_step_ = stage_step_ + first_step_ + static_cast<PetscInt>(std::ceil(left / dt_ - 1e-6));
+  if (!scene.relax && scene.has_end_time && left / dt_ < static_cast<double>(last_step_ - stage_step_ - done))
+    last_step_ = stage_step_ + done + static_cast<PetscInt>(std::ceil(left / dt_ - 1e-6));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -121,6 +124,7 @@ PetscErrorCode Simulation::CreateTS(double dt_old) {
   PetscCall(TSSetMaxSteps(ts_, steps < PETSC_INT_MAX - stage_step_ ? stage_step_ + steps : PETSC_INT_MAX));
   PetscCall(TSCentralSetLastStep(ts_, dt_old));
   relaxation_ = scene.relax ? std::make_unique<Relaxation>(scene.relaxation) : nullptr;
+  to_keep_ = RelaxMemory();
   balanced_ = false;
   if (relaxation_) PetscCall(TSSetApplicationContext(ts_, this));
   if (relaxation_)
@@ -137,7 +141,33 @@ PetscErrorCode Simulation::EndStage() {
     if (!balanced_) PetscCall(ReportImbalance());
     PetscCall(StopMotion());
   }
+  for (const auto &[phase, seconds] : backend_->Phases()) solve_phases_[phase] += seconds;
   stage_summaries_.push_back(StageSummary());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::FindReactions(std::vector<double> *reaction) {
+  PetscFunctionBeginUser;
+  const std::vector<Boundary> &boundaries = Now().boundaries;
+  if (!KeepsReactions(boundaries, scenes_[stage_ + 1].boundaries)) PetscFunctionReturn(PETSC_SUCCESS);
+  holds_ = true;
+  const double *u, *v;
+  const Histories *history;
+  double dt_old, time;
+  PetscCall(TSCentralGetLastStep(ts_, &dt_old));
+  PetscCall(TSGetTime(ts_, &time));
+  PetscCall(backend_->Download(&u, &v, &history));
+  std::vector<double> schedule(3 * Now().tables.size());
+  FillSchedule(time - stage_time_, dt_, schedule.data());
+  ElementResults elements;
+  SpringResults springs;
+  // What is out of balance where nothing were prescribed is what the supports carry.
+  std::vector<std::uint8_t> kind(tables_.records.kind.size(), 0);
+  std::swap(kind, tables_.records.kind);
+  PetscCall(ObserveOnHost(tables_, static_cast<int>(mesh_.n_owned), u, v, *history, MakeArgs(dt_old, dt_),
+                          schedule.data(), &elements, &springs, nullptr, nullptr, reaction));
+  std::swap(kind, tables_.records.kind);
+  for (double &force : *reaction) force = -force;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -154,6 +184,8 @@ PetscErrorCode Simulation::NextStage() {
   const Histories before = *history;
   AuditSums at_end, at_start;
   if (book_.on) PetscCall(TakeAudit(&at_end));
+  std::vector<double> reaction;
+  PetscCall(FindReactions(&reaction));
   PetscCall(TSDestroy(&ts_));
   PetscCall(VecDestroy(&u_));
   PetscCall(VecDestroy(&v_));
@@ -167,14 +199,23 @@ PetscErrorCode Simulation::NextStage() {
   stage_step_ = steps_;
   PetscCall(BuildStage());
   PetscCall(ChooseStep());
+  PetscCall(IdentifyScene());
+  if (holds_) {
+    held_.resize(n);
+    const Scene &last = scenes_[stage_ - 1];
+    PetscCall(
+        HoldReactions(mesh_, nodes_, last.boundaries, old, last.relax, Now().boundaries, tables_, reaction, &held_));
+    AddLoads(held_, &tables_);
+  }
   Histories after;
   PetscCall(TransferHistories(mesh_, old, before, tables_, u_end.data(), &after));
   PetscCall(CreateBackend());
   PetscCall(backend_->Upload(u_end.data(), v_end.data(), after));
   if (Now().reset) {
-    origin_.assign(u_end.begin(), u_end.begin() + static_cast<std::ptrdiff_t>(n));
+    origin_ = u_end;
     PetscCall(recorder_.SetOrigin(origin_.data()));
   }
+  if (Now().removes && !output_dir_.empty()) PetscCall(WriteMeshes());
   PetscCall(CreateTS(dt_old));
   if (book_.on) {
     PetscCall(TakeAudit(&at_start));

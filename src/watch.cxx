@@ -22,7 +22,8 @@ PetscInt Simulation::StepsToNext(PetscInt step, PetscReal time, PetscReal dt) {
 PetscErrorCode Simulation::MonitorTS(TS, PetscInt step, PetscReal time, Vec, void *ctx) {
   Simulation &run = *static_cast<Simulation *>(ctx);
   PetscFunctionBeginUser;
-  if (run.relaxation_ && step == run.stage_step_) PetscCall(run.CheckBalance(step));
+  const bool resumed_at_end = step == run.first_step_ && run.AtEnd() && !run.balanced_;
+  if (run.relaxation_ && (step == run.stage_step_ || resumed_at_end)) PetscCall(run.CheckBalance(step));
   if (step > run.stage_step_ || run.stage_ == 0) PetscCall(run.Watch(step, time));  // else the stage before has looked
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -105,7 +106,7 @@ PetscErrorCode Simulation::WriteFrame(PetscInt step, double time) {
   const double *reported = u;
   if (!origin_.empty()) {
     since.assign(u, u + 3 * static_cast<std::size_t>(tables_.n_local));
-    for (std::size_t i = 0; i < origin_.size(); ++i) since[i] -= origin_[i];
+    for (std::size_t i = 0; i < since.size(); ++i) since[i] -= origin_[i];
     reported = since.data();
   }
   PetscCall(fields_.Write(step, time + pseudo_time_, reported, v_now, stress, springs, *history));

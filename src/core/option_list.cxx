@@ -74,6 +74,29 @@ std::string OptionLine(const GivenOption &option) {
 
 namespace {
 
+constexpr char kStage[] = "stage_";
+
+/// The stages that the options declare, in small letters.
+std::vector<std::string> StagesOf(const std::vector<GivenOption> &options) {
+  for (const GivenOption &option : options)
+    if (Lower(option.name) == "stages") return SplitList(Lower(option.value));
+  return {};
+}
+
+/// The stage of an option -stage_<name>_<inner>: its place among those declared (the longest name that fits), -1: none.
+int StageOf(const std::vector<std::string> &stages, const std::string &option, std::string *inner) {
+  int found = -1;
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const std::string head = kStage + stages[i] + "_";
+    if (option.rfind(head, 0) != 0 || head.size() <= longest || head.size() == option.size()) continue;
+    found = static_cast<int>(i);
+    longest = head.size();
+    *inner = option.substr(head.size());
+  }
+  return found;
+}
+
 /// The row that an option belongs to (of several families the one with the longest key), nullptr if none; everybodys: it
 /// names nobody.
 const OptionSpec *RowOf(const std::string &option, bool *everybodys) {
@@ -87,11 +110,23 @@ const OptionSpec *RowOf(const std::string &option, bool *everybodys) {
   return FindFamily(option, &name);
 }
 
+/// The row of an option, also where a stage overrides it. [out] overrides: one does; everybodys: as above.
+const OptionSpec *RowInStages(const std::vector<std::string> &stages, const std::string &option, bool *overrides,
+                              bool *everybodys) {
+  std::string inner;
+  *overrides = StageOf(stages, option, &inner) >= 0;
+  if (*overrides)
+    if (const OptionSpec *spec = RowOf(inner, everybodys)) return spec;
+  *overrides = false;
+  return RowOf(option, everybodys);
+}
+
 bool IsOfScene(const OptionSpec &spec) {
   const OptionPattern pattern(spec);
   for (const char *free : {"ts_", "monitor_", "histor", "output", "checkpoint_", "restart", "help_"})
     if (pattern.family.rfind(free, 0) == 0) return false;
-  for (const char *free : {"mesh", "deterministic", "device", "central_way", "elements_per_block"})
+  for (const char *free : {"mesh", "deterministic", "device", "central_way", "elements_per_block", "relax_ratio",
+                           "relax_kinetic", "relax_max_steps"})
     if (pattern.family == free) return false;
   return pattern.key != "file";
 }
@@ -114,9 +149,10 @@ bool SameValue(const OptionSpec &spec, const std::string &a, const std::string &
 
 std::vector<GivenOption> SceneOptions(const std::vector<GivenOption> &options) {
   std::vector<GivenOption> scene;
-  bool everybodys;
+  const std::vector<std::string> stages = StagesOf(options);
+  bool overrides, everybodys;
   for (const GivenOption &option : options) {
-    const OptionSpec *spec = RowOf(Lower(option.name), &everybodys);
+    const OptionSpec *spec = RowInStages(stages, Lower(option.name), &overrides, &everybodys);
     if (!spec || !IsOfScene(*spec)) continue;
     scene.push_back(option);
     for (char &c : scene.back().value)
@@ -125,26 +161,35 @@ std::vector<GivenOption> SceneOptions(const std::vector<GivenOption> &options) {
   return scene;
 }
 
-std::string SceneDifference(const std::vector<GivenOption> &was, const std::vector<GivenOption> &now) {
+std::string SceneDifference(const std::vector<GivenOption> &was, const std::vector<GivenOption> &now, int stage) {
   constexpr std::size_t kMost = 5;
-  std::map<std::string, std::pair<const GivenOption *, const GivenOption *>> pairs;
-  for (const GivenOption &option : was) pairs[Lower(option.name)].first = &option;
-  for (const GivenOption &option : now) pairs[Lower(option.name)].second = &option;
+  using Pair = std::pair<const GivenOption *, const GivenOption *>;
+  std::map<std::string, Pair> pairs;
+  std::vector<std::string> stages[2] = {StagesOf(was), StagesOf(now)};
+  for (int side = 0; side < 2; ++side)
+    for (const GivenOption &option : side == 0 ? was : now) {
+      std::string inner;
+      const std::string name = Lower(option.name);
+      if (StageOf(stages[side], name, &inner) <= stage) (side == 0 ? pairs[name].first : pairs[name].second) = &option;
+    }
+  for (std::vector<std::string> &names : stages)
+    if (names.size() > static_cast<std::size_t>(stage) + 1) names.resize(static_cast<std::size_t>(stage) + 1);
   std::vector<std::string> lines;
   for (const auto &[name, pair] : pairs) {
-    bool everybodys;
-    const OptionSpec *spec = RowOf(name, &everybodys);
-    if (!spec) continue;
+    bool overrides, everybodys;
+    const OptionSpec *spec = RowInStages(stages[pair.first ? 0 : 1], name, &overrides, &everybodys);
+    if (!spec || (name == "stages" && stages[0] == stages[1])) continue;
     const auto [before, after] = pair;
     const bool alone = everybodys || pairs.count(Lower(OptionPattern(*spec).Spell(""))) == 0;
-    const bool may_fall_back = alone && *spec->fallback;
-    if (before && after && SameValue(*spec, before->value, after->value)) continue;
+    const bool may_fall_back = alone && !overrides && *spec->fallback;
+    if (before && after && name != "stages" && SameValue(*spec, before->value, after->value)) continue;
     if (!(before && after) && may_fall_back && SameValue(*spec, (before ? before : after)->value, spec->fallback))
       continue;
     const auto said = [](const GivenOption *option) {
       return !option ? std::string("not given") : option->has_value ? option->value : std::string("given");
     };
-    lines.push_back("-" + name + " was " + said(before) + " and is " + said(after) + " now");
+    const std::string line = "-" + name + " was " + said(before) + " and is " + said(after) + " now";
+    lines.insert(name == "stages" ? lines.begin() : lines.end(), line);  // other stages say the most
   }
   std::string text;
   for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) text += (i ? "; " : "") + lines[i];

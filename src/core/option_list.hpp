@@ -27,6 +27,7 @@ std::vector<GivenOption> SceneOptions(const std::vector<GivenOption> &options);
 
 /// What differs between the options of two scenes, a sentence: "-gravity was 0,0,-9.81 and is 0,0,-10 now; ...", or "".
 /// Numbers are compared as numbers, and an option that is not given counts as its default where it has one.
-std::string SceneDifference(const std::vector<GivenOption> &was, const std::vector<GivenOption> &now);
+/// [in] stage: the last one (from 0) that counts: later ones may be other ones.
+std::string SceneDifference(const std::vector<GivenOption> &was, const std::vector<GivenOption> &now, int stage = 0);
 
 }  // namespace cdem

@@ -169,6 +169,16 @@ PetscErrorCode Options::Has(const OptionKey &key, bool *set) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode Options::GivenBy(const OptionKey &key, int *stage) {
+  Given given;
+  PetscFunctionBeginUser;
+  PetscCall(Raw(key, {}, true, &given));
+  *stage = given.set ? -1 : -2;
+  for (std::size_t i = 0; given.set && i < stages_.size(); ++i)  // a stage's option begins like this
+    if (given.spelled.rfind("-stage_" + stages_[i] + "_", 0) == 0) *stage = static_cast<int>(i);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode Options::Flag(const OptionKey &key, bool *value, bool *set) {
   Given given;
   PetscFunctionBeginUser;

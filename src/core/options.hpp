@@ -55,6 +55,8 @@ class Options {
   MPI_Comm comm() const { return comm_; }
 
   PetscErrorCode Has(const OptionKey &key, bool *set);
+  /// Which of the stages gives what a getter finds, from 0; -1: the run as a whole; -2: nobody.
+  PetscErrorCode GivenBy(const OptionKey &key, int *stage);
   PetscErrorCode Flag(const OptionKey &key, bool *value, bool *set = nullptr);
   PetscErrorCode Int(const OptionKey &key, PetscInt *value, bool *set = nullptr);
   PetscErrorCode Real(const OptionKey &key, double *value, bool *set = nullptr);

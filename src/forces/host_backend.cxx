@@ -1,9 +1,9 @@
+#include "core/events.hpp"
 #include "forces/backend.hpp"
 #include "forces/host_audit.hpp"
 #include "forces/node_audit.hpp"
 #include "forces/observe.hpp"
 #include "forces/release.hpp"
-#include "core/events.hpp"
 
 #include <algorithm>
 
@@ -91,9 +91,10 @@ class HostBackend final : public Backend {
  public:
   HostBackend(const Tables &tables, int n_owned_cells, bool audit)
       : t_(tables), n_owned_cells_(n_owned_cells), u_(3 * static_cast<std::size_t>(tables.n_local), 0.0), v_(u_),
-        f_(u_),
-        last_(tables.combined ? 3 * static_cast<std::size_t>(tables.n_owned) : 0), history_{StartElements(tables),
-                                                                                            StartSprings(tables)} {
+        f_(u_) {
+    history_.elements = StartElements(tables);
+    history_.springs = StartSprings(tables);
+    StartAccelerations();
     if (audit) audit_ = StartAudit(tables);
   }
 
@@ -102,7 +103,8 @@ class HostBackend final : public Backend {
     return "cpu, " + std::to_string(kLanes) + " lanes (" + set + ")";
   }
   std::size_t Bytes() const override {
-    std::size_t bytes = 8 * (3 * u_.size() + last_.size() + t_.weight.size() + t_.x.size() + 2 * t_.mass.size());
+    std::size_t bytes =
+        8 * (3 * u_.size() + history_.acceleration.size() + t_.weight.size() + t_.x.size() + 2 * t_.mass.size());
     for (const ElementTable &e : t_.elements) bytes += 4 * (e.node.size() + e.material.size());
     for (const SpringTable &s : t_.springs) bytes += static_cast<std::size_t>(s.n_pad) * (4 * 3 + 8 * 6);
     for (const SpringHistory &h : history_.springs) bytes += h.state.size() + 8 * h.values.size();
@@ -128,7 +130,7 @@ class HostBackend final : public Backend {
     PetscFunctionBeginUser;
     *failure = Failure();
     NodeView view = HostView(t_, u_.data(), v_.data(), batch.schedule, batch.history);
-    if (t_.combined) view.last = last_.data();
+    if (t_.combined) view.last = history_.acceleration.data();
     const auto nodes = VisitNodes(t_, [&](auto has) {
       return audit_.Empty() ? &HostBackend::Nodes<decltype(has), false> : &HostBackend::Nodes<decltype(has), true>;
     });
@@ -175,7 +177,7 @@ class HostBackend final : public Backend {
     PetscCheck(!audit_.Empty(), PETSC_COMM_SELF, PETSC_ERR_ORDER, "the energy audit is off");
     PetscCall(Halo());
     NodeView view = HostView(t_, u_.data(), v_.data(), schedule, nullptr);
-    if (t_.combined) view.last = last_.data();
+    if (t_.combined) view.last = history_.acceleration.data();
     PetscCall(AuditOnHost(t_, n_owned_cells_, view, history_, audit_, next, sums));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -201,6 +203,7 @@ class HostBackend final : public Backend {
     std::copy_n(u, 3 * static_cast<std::size_t>(t_.n_owned), u_.data());
     std::copy_n(v, 3 * static_cast<std::size_t>(t_.n_owned), v_.data());
     history_ = history;
+    if (history_.acceleration.empty()) StartAccelerations();
     PetscCall(TellVecs());
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -213,6 +216,9 @@ class HostBackend final : public Backend {
   }
 
  private:
+  void StartAccelerations() {
+    history_.acceleration.assign(t_.combined ? 3 * static_cast<std::size_t>(t_.n_owned) : 0, 0.0);
+  }
   /// PETSc must know that the values of the Vecs changed.
   PetscErrorCode TellVecs() {
     PetscFunctionBeginUser;
@@ -261,7 +267,7 @@ class HostBackend final : public Backend {
 
   const Tables &t_;
   int n_owned_cells_;
-  std::vector<double> u_, v_, f_, last_;
+  std::vector<double> u_, v_, f_;
   Histories history_;
   AuditArrays audit_;                      // empty while the audit is off
   std::vector<std::uint8_t> released_;     // of cells, where breaking elements release their interfaces

@@ -23,6 +23,7 @@ struct ElementHistories {
 struct Histories {
   std::vector<ElementHistories> elements;
   std::vector<SpringHistory> springs;
+  std::vector<double> acceleration{};  ///< [n_owned][3] of the step before [m/s^2], in combined damping; else empty
 };
 
 /// Per-element results of an observing pass, optional (NULL: not wanted).

@@ -152,14 +152,13 @@ PetscErrorCode Iterate(Mat matrix, Vec start, double shift, SharpStep *sharp) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/// Down to 10 significant bits.
-double RoundDown(double value) {
+}  // namespace
+
+double RoundedStep(double step) {
   int exponent;
-  const double mantissa = std::frexp(value, &exponent);
+  const double mantissa = std::frexp(step, &exponent);
   return std::ldexp(std::floor(std::ldexp(mantissa, 10)), exponent - 10);
 }
-
-}  // namespace
 
 PetscErrorCode ComputeSharpStep(const Mesh &mesh, const Nodes &nodes, const Tables &tables,
                                 const std::vector<Material> &materials, const StepBound &bound, SharpStep *sharp) {
@@ -192,7 +191,7 @@ PetscErrorCode ComputeSharpStep(const Mesh &mesh, const Nodes &nodes, const Tabl
              "the highest frequency is above its bound: w^2 %g above %g 1/s^2", sharp->theta, bound.w2());
   if (sharp->converged) {
     sharp->w2 = std::min(bound.w2(), sharp->theta + sharp->residual);
-    sharp->dt = std::max(bound.dt, RoundDown(CriticalStep(sharp->w2, tables.beta)));
+    sharp->dt = std::max(bound.dt, RoundedStep(CriticalStep(sharp->w2, tables.beta)));
   }
   PetscCall(PetscLogEventEnd(events.bound, nullptr, nullptr, nullptr, nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -9,7 +9,7 @@ struct SharpStep {
   double residual = 0;     ///< of its Ritz vector [1/s^2]
   int iterations = 0;      ///< products with the stiffness
   bool converged = false;  ///< otherwise the bound is taken
-  double w2 = 0;           ///< min(bound, theta + residual) [1/s^2]
+  double w2 = 0;           ///< min(bound, theta + residual) [1/s^2]; its last bits depend on the ranks
   double dt = 0;  ///< critical step with beta [s], rounded down to 10 significant bits; never below the bound's
 };
 
@@ -18,6 +18,9 @@ struct SharpStep {
 /// the modes that give the bound, that it is the largest. Where nothing free has stiffness, the bound is taken.
 PetscErrorCode ComputeSharpStep(const Mesh &mesh, const Nodes &nodes, const Tables &tables,
                                 const std::vector<Material> &materials, const StepBound &bound, SharpStep *sharp);
+
+/// Down to 10 significant bits: sums over ranks differ in the last ones.
+double RoundedStep(double step);
 
 /// The square of the residual norm of the largest Ritz pair of a Lanczos process, from the Ritz values alone.
 /// [in] before: of k - 1 steps, ascending; now: of k steps. With theta the largest of before, and p_k the characteristic

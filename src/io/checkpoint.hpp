@@ -16,6 +16,8 @@ class Options;
 
 /// The numbers of a run beside its arrays, by name: step, time, dt, ... A reader keeps those that it does not know.
 using Numbers = std::map<std::string, double>;
+/// Vectors of the owned nodes [n_owned][3] beside displacement and velocity, by name; the same names on all ranks.
+using NodeFields = std::vector<std::pair<std::string, const double *>>;
 
 /// What a checkpoint is taken of. All is borrowed.
 struct CheckpointScene {
@@ -25,6 +27,7 @@ struct CheckpointScene {
   Fingerprint fingerprint;
   std::vector<GivenOption> options;  ///< of the scene
   bool audited = false;              ///< the energy audit is on
+  int stage = 0;                     ///< the one that is computed, from 0
 };
 
 /// Writes checkpoints when they are due, and keeps the last two.
@@ -39,10 +42,9 @@ class CheckpointWriter {
     return Active() && step != first && (last || interval_.Due(step, time, dt));
   }
   /// Writes one safely (temporary file, onto the disk, rename), then removes all but the last two. [in] u, v: [n_owned][3]
-  /// (host), v at the half step; history, audit:
-  /// of the same moment. Collective.
+  /// (host), v at the half step; more: what else the nodes remember; history, audit: of the same moment. Collective.
   PetscErrorCode Write(const CheckpointScene &scene, PetscInt step, const Numbers &numbers, const double *u,
-                       const double *v, const Histories &history, const AuditArrays &audit);
+                       const double *v, const NodeFields &more, const Histories &history, const AuditArrays &audit);
 
  private:
   std::string dir_;
@@ -58,6 +60,7 @@ class CheckpointReader {
   const std::string &path() const { return path_; }
   /// A number by its name; an error of the file when it lacks it is told by Open for those that every checkpoint has.
   double Number(const char *name) const;
+  PetscInt Integer(const char *name) const { return static_cast<PetscInt>(Number(name)); }
   PetscInt step() const { return static_cast<PetscInt>(Number("step")); }
   double time() const { return Number("time"); }
   /// Error unless the scene is the same: which option was what and is what now, or which part of the model differs.
@@ -67,6 +70,8 @@ class CheckpointReader {
                            Histories *history);
   /// Reads what the energy audit had added up; the checkpoint has the number "audit" (collective).
   PetscErrorCode ReadAudit(const CheckpointScene &scene, AuditArrays *audit);
+  /// Reads a vector of the nodes [n_owned][3] (collective); empty when the file has none of that name.
+  PetscErrorCode ReadNodes(const CheckpointScene &scene, const std::string &name, std::vector<double> *values);
 
  private:
   PetscErrorCode CheckContent();

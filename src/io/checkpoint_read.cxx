@@ -118,14 +118,16 @@ PetscErrorCode CheckpointReader::CheckScene(const CheckpointScene &scene) {
   }
   PetscCall(file_->Check());
   const std::string model = FingerprintDifference(was, scene.fingerprint);
-  const std::string options = SceneDifference(ParseOptions(text), scene.options);
+  const std::string options = SceneDifference(ParseOptions(text), scene.options, scene.stage);
   const std::string unsaid =
-      " (the options that describe it are the same: the content of a file that they name is another, or -mesh or "
-      "-dm_refine is)";
+      std::string(
+          " (the options that describe it are the same: the content of a file that they name is another, or "
+          "-mesh or -dm_refine is") +
+      (scene.stage > 0 ? ", or how long an earlier stage runs)" : ")");
   const std::string reason = options.empty() ? model + unsaid : options + (model.empty() ? "" : " (" + model + ")");
   CdemCheck(options.empty() && model.empty(), comm_,
-            "%s is a checkpoint of another scene: %s. How long it runs, output, monitors, histories, device, ranks and "
-            "-ts_dt may change, nothing else",
+            "%s is a checkpoint of another scene: %s. How long it runs, output, monitors, histories, device, ranks, "
+            "-ts_dt and later stages may change, nothing else",
             path_.c_str(), reason.c_str());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -170,27 +172,38 @@ PetscErrorCode CheckpointReader::ReadHistory(const HistoryRows &kind, Histories 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode CheckpointReader::ReadNodes(const CheckpointScene &scene, const std::string &name,
+                                           std::vector<double> *values) {
+  PetscFunctionBeginUser;
+  values->clear();
+  int width = 0;
+  const std::string set = "nodes/" + name;
+  const std::int64_t total = file_->Rows(set, &width);
+  if (total < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  CdemCheck(total == scene.nodes->n_global && width == 3, comm_, "%s: its %s are not those of %lld nodes",
+            path_.c_str(), set.c_str(), static_cast<long long>(scene.nodes->n_global));
+  PetscSF sf = nullptr;
+  Hdf5Block b;
+  PetscCall(CreateWantedBlocks(comm_, scene.nodes->global, scene.nodes->n_global, "nodes", &sf, &b));
+  std::vector<double> block(3 * b.rows);
+  file_->Read(set, H5T_NATIVE_DOUBLE, static_cast<std::int64_t>(b.offset), static_cast<std::int64_t>(b.rows),
+              block.data());
+  PetscCall(file_->Check());
+  values->resize(3 * static_cast<std::size_t>(scene.tables->n_owned));
+  PetscCall(FromBlock(sf, MPI_DOUBLE, 3, block, values->data()));
+  PetscCall(PetscSFDestroy(&sf));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode CheckpointReader::ReadState(const CheckpointScene &scene, std::vector<double> *u, std::vector<double> *v,
                                            Histories *history) {
   PetscFunctionBeginUser;
   const Tables &tables = *scene.tables;
-  PetscSF sf = nullptr;
-  Hdf5Block b;
-  PetscCall(CreateWantedBlocks(comm_, scene.nodes->global, scene.nodes->n_global, "nodes", &sf, &b));
-  for (auto [name, field] : {std::pair<const char *, std::vector<double> *>{"nodes/displacement", u},
-                             std::pair<const char *, std::vector<double> *>{"nodes/velocity", v}}) {
-    std::vector<double> block(3 * b.rows);
-    int width = 0;
-    const std::int64_t total = file_->Rows(name, &width);
-    CdemCheck(total == scene.nodes->n_global && width == 3, comm_, "%s: its %s are not those of %lld nodes",
-              path_.c_str(), name, static_cast<long long>(scene.nodes->n_global));
-    file_->Read(name, H5T_NATIVE_DOUBLE, static_cast<std::int64_t>(b.offset), static_cast<std::int64_t>(b.rows),
-                block.data());
-    PetscCall(file_->Check());
-    field->resize(3 * static_cast<std::size_t>(tables.n_owned));
-    PetscCall(FromBlock(sf, MPI_DOUBLE, 3, block, field->data()));
+  for (auto [name, field] : {std::pair<const char *, std::vector<double> *>{"displacement", u}, {"velocity", v}}) {
+    CdemCheck(file_->Rows(std::string("nodes/") + name) >= 0, comm_, "%s lacks the %s of the nodes", path_.c_str(),
+              name);
+    PetscCall(ReadNodes(scene, name, field));
   }
-  PetscCall(PetscSFDestroy(&sf));
   *history = Histories{StartElements(tables), StartSprings(tables)};
   std::vector<HistoryRows> kinds;
   PetscCall(FindHistoryRows(*scene.mesh, *scene.nodes, tables, &kinds));

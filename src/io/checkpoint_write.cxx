@@ -137,8 +137,8 @@ PetscErrorCode CheckpointWriter::ReadOptions(Options &options, const std::string
 }
 
 PetscErrorCode CheckpointWriter::Write(const CheckpointScene &scene, PetscInt step, const Numbers &numbers,
-                                       const double *u, const double *v, const Histories &history,
-                                       const AuditArrays &audit) {
+                                       const double *u, const double *v, const NodeFields &more,
+                                       const Histories &history, const AuditArrays &audit) {
   PetscFunctionBeginUser;
   const MPI_Comm comm = scene.tables->comm;
   int rank;
@@ -146,7 +146,8 @@ PetscErrorCode CheckpointWriter::Write(const CheckpointScene &scene, PetscInt st
   const std::string path = dir_ + "/checkpoint_" + std::to_string(step) + ".h5";
   std::vector<HistoryRows> kinds;
   PetscCall(FindHistoryRows(*scene.mesh, *scene.nodes, *scene.tables, &kinds));
-  std::int64_t bytes = 48 * static_cast<std::int64_t>(scene.nodes->n_global) + (std::int64_t{1} << 18);
+  const std::int64_t vectors = 2 + static_cast<std::int64_t>(more.size());
+  std::int64_t bytes = 24 * vectors * static_cast<std::int64_t>(scene.nodes->n_global) + (std::int64_t{1} << 18);
   for (const HistoryRows &kind : kinds) bytes += kind.total * (8 * (kind.places + kind.states + kind.timed) + 1);
   std::vector<AuditRows> audited;
   if (scene.audited) PetscCall(FindAuditRows(*scene.mesh, *scene.nodes, *scene.tables, &audited));
@@ -171,8 +172,10 @@ PetscErrorCode CheckpointWriter::Write(const CheckpointScene &scene, PetscInt st
   Hdf5Block block;
   PetscCall(CreateBlocks(comm, scene.nodes->global, "nodes", &sf, &block));
   PetscCall(file.Group("nodes"));
-  PetscCall(file.PutRows("displacement", H5T_NATIVE_DOUBLE, MPI_DOUBLE, sf, block, 3, u));
-  PetscCall(file.PutRows("velocity", H5T_NATIVE_DOUBLE, MPI_DOUBLE, sf, block, 3, v));
+  NodeFields fields = {{"displacement", u}, {"velocity", v}};
+  fields.insert(fields.end(), more.begin(), more.end());
+  for (const auto &[name, values] : fields)
+    PetscCall(file.PutRows(name, H5T_NATIVE_DOUBLE, MPI_DOUBLE, sf, block, 3, values));
   PetscCall(PetscSFDestroy(&sf));
   for (const HistoryRows &kind : kinds) PetscCall(PutHistory(scene, kind, history, &file));
   for (const AuditRows &rows : audited) PetscCall(PutAudit(scene, rows, audit, &file));

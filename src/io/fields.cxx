@@ -25,14 +25,21 @@ PetscErrorCode FieldOutput::Create(MPI_Comm comm, Options &options) {
 
 bool FieldOutput::Wants(const char *field) const { return wanted_.empty() || Mesh::Find(wanted_, field) >= 0; }
 
-PetscErrorCode FieldOutput::Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
-                                 const std::vector<int> &face_interface, bool plastic, bool broken) {
-  PetscFunctionBeginUser;
+void FieldOutput::Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
+                       const std::vector<int> &face_interface, bool plastic, bool broken) {
+  dir_ = dir;
   with_plastic_ = plastic;
   with_broken_ = broken;
   mesh_ = &mesh;
   nodes_ = &nodes;
   tables_ = &tables;
+  face_interface_ = &face_interface;
+}
+
+PetscErrorCode FieldOutput::WriteMesh(const std::vector<char> &removed, int number) {
+  PetscFunctionBeginUser;
+  const Mesh &mesh = *mesh_;
+  const Nodes &nodes = *nodes_;
   // Cells of a rank may have ghost nodes: their global numbers come from the owners.
   std::vector<std::int64_t> global(nodes.global);
   global.resize(nodes.n_local);
@@ -44,18 +51,27 @@ PetscErrorCode FieldOutput::Open(const std::string &dir, const Mesh &mesh, const
   }
   VtkMesh vtk;
   vtk.point_global = nodes.global;
-  vtk.points.assign(tables.x.begin(), tables.x.begin() + 3 * static_cast<std::ptrdiff_t>(nodes.n_owned));
+  vtk.points.assign(tables_->x.begin(), tables_->x.begin() + 3 * static_cast<std::ptrdiff_t>(nodes.n_owned));
   vtk.cell_start.push_back(0);
+  std::vector<PetscInt> there(mesh.n_owned);
+  std::vector<std::int64_t> row;
+  std::int64_t n_live;
+  for (PetscInt c = 0; c < mesh.n_owned; ++c) there[c] = !IsRemoved(mesh, removed, c);
+  PetscCall(GlobalOffsets(mesh, there, &row, &n_live));
+  live_.clear();
+  region_.clear();
   for (PetscInt c = 0; c < mesh.n_owned; ++c) {
+    if (!there[c]) continue;
+    live_.push_back(c);
     const ShapeInfo &info = Info(mesh.cell_shape[c]);
-    vtk.cell_global.push_back(mesh.cell_global[c]);
+    vtk.cell_global.push_back(row[c]);
     vtk.cell_type.push_back(static_cast<std::uint8_t>(info.vtk_type));
     for (int a = 0; a < info.corners; ++a) vtk.cell_points.push_back(global[nodes.Corners(c)[a]]);
     vtk.cell_start.push_back(static_cast<int>(vtk.cell_points.size()));
     region_.push_back(mesh.cell_region[c]);
   }
-  PetscCall(blocks_.Create(comm_, dir, "fields", vtk));
-  PetscCall(OpenInterfaces(dir, face_interface));
+  PetscCall(blocks_.Create(comm_, dir_, "fields", vtk, number));
+  PetscCall(WriteInterfaceMesh(removed, number));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -66,9 +82,12 @@ PetscErrorCode FieldOutput::Continue(EarlierRun *earlier) {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode FieldOutput::OpenInterfaces(const std::string &dir, const std::vector<int> &face_interface) {
+PetscErrorCode FieldOutput::WriteInterfaceMesh(const std::vector<char> &removed, int number) {
   PetscFunctionBeginUser;
   const Mesh &mesh = *mesh_;
+  const std::vector<int> &face_interface = *face_interface_;
+  interface_.clear();
+  face_nodes_.clear();
   row_of_face_.assign(mesh.faces.size(), -1);
   std::vector<PetscInt> points(mesh.n_owned, 0), cells(mesh.n_owned, 0);
   VtkMesh vtk;
@@ -77,6 +96,7 @@ PetscErrorCode FieldOutput::OpenInterfaces(const std::string &dir, const std::ve
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const Face &face = mesh.faces[f];
     if (face_interface[f] < 0 || face.cell[1] < 0 || face.cell[0] >= mesh.n_owned) continue;
+    if (IsRemoved(mesh, removed, face.cell[0]) || IsRemoved(mesh, removed, face.cell[1])) continue;
     const int size = Info(mesh.cell_shape[face.cell[0]]).face_size[face.local[0]];
     row_of_face_[f] = static_cast<int>(interface_.size());
     interface_.push_back(face_interface[f]);
@@ -104,7 +124,7 @@ PetscErrorCode FieldOutput::OpenInterfaces(const std::string &dir, const std::ve
     for (int p = vtk.cell_start[row]; p < vtk.cell_start[row + 1]; ++p) vtk.point_global[p] += point_start[cell];
   }
   vtk.cell_points = vtk.point_global;
-  PetscCall(interfaces_.Create(comm_, dir, "interfaces", vtk));
+  PetscCall(interfaces_.Create(comm_, dir_, "interfaces", vtk, number));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -162,6 +182,16 @@ PetscErrorCode FieldOutput::WriteInterfaces(PetscInt step, double time, const do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/// The rows [owned cells][components] of the cells that are there.
+std::vector<double> FieldOutput::OfLive(const double *values, int components) const {
+  std::vector<double> live;
+  live.reserve(live_.size() * static_cast<std::size_t>(components));
+  for (PetscInt c : live_)
+    live.insert(live.end(), values + static_cast<std::ptrdiff_t>(components) * c,
+                values + static_cast<std::ptrdiff_t>(components) * (c + 1));
+  return live;
+}
+
 PetscErrorCode FieldOutput::Write(PetscInt step, double time, const double *u, const std::vector<double> &v_now,
                                   const std::vector<double> &stress, const SpringResults &springs,
                                   const Histories &history) {
@@ -169,10 +199,13 @@ PetscErrorCode FieldOutput::Write(PetscInt step, double time, const double *u, c
   ElementFields of_history;
   FillElementFields(*tables_, static_cast<int>(mesh_->n_owned), history.elements, with_plastic_, with_broken_,
                     &of_history);
+  const std::vector<double> live_stress = OfLive(stress.data(), 6);
   std::vector<VtkField> fields = {{"displacement", true, 3, u},
                                   {"velocity", true, 3, v_now.data()},
-                                  {"stress", false, 6, stress.data()},
+                                  {"stress", false, 6, live_stress.data()},
                                   {"region", false, 1, region_.data()}};
+  for (std::vector<double> *values : {&of_history.plastic_strain, &of_history.broken, &of_history.broken_time})
+    if (!values->empty()) *values = OfLive(values->data(), 1);
   if (with_plastic_) fields.push_back({"plastic_strain", false, 1, of_history.plastic_strain.data()});
   if (with_broken_) {
     fields.push_back({"broken", false, 1, of_history.broken.data()});

@@ -13,9 +13,13 @@ class FieldOutput {
  public:
   /// Reads -output_fields (collective).
   PetscErrorCode Create(MPI_Comm comm, Options &options);
-  /// Writes the mesh files into a folder that exists. [in] plastic, broken: some stage has such fields.
-  PetscErrorCode Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
-                      const std::vector<int> &face_interface, bool plastic, bool broken);
+  /// Says what the frames are of, in a folder that exists. All is borrowed. [in] plastic, broken: some stage has such
+  /// fields.
+  void Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
+            const std::vector<int> &face_interface, bool plastic, bool broken);
+  /// Writes the mesh files of what is there from now on (collective). [in] removed: regions that have left, one flag each;
+  /// number: how often some have left before.
+  PetscErrorCode WriteMesh(const std::vector<char> &removed, int number);
   /// Goes on behind the frames of an earlier run.
   PetscErrorCode Continue(EarlierRun *earlier);
   /// One frame from host copies at u(n) and the histories of the step before. [in] v_now: [n_owned][3]; stress: [owned
@@ -24,7 +28,8 @@ class FieldOutput {
                        const std::vector<double> &stress, const SpringResults &springs, const Histories &history);
 
  private:
-  PetscErrorCode OpenInterfaces(const std::string &dir, const std::vector<int> &face_interface);
+  PetscErrorCode WriteInterfaceMesh(const std::vector<char> &removed, int number);
+  std::vector<double> OfLive(const double *values, int components) const;
   PetscErrorCode WriteInterfaces(PetscInt step, double time, const double *u, const SpringResults &springs);
   bool Wants(const char *field) const;
 
@@ -32,7 +37,10 @@ class FieldOutput {
   const Mesh *mesh_ = nullptr;
   const Nodes *nodes_ = nullptr;
   const Tables *tables_ = nullptr;
+  const std::vector<int> *face_interface_ = nullptr;
+  std::string dir_;
   std::vector<std::string> wanted_;  // empty: all
+  std::vector<PetscInt> live_;       // owned cells that are there
   std::vector<double> region_, interface_;
   std::vector<int> row_of_face_;      // row of the interface mesh, -1 otherwise
   std::vector<PetscInt> face_nodes_;  // per point of the interface mesh: node on the side of cell[0]

@@ -123,10 +123,18 @@ Sum OfBoundaries(const Nodes &nodes, const NodeRecords &r) {
   return sum;
 }
 
-Sum OfTables(const std::vector<TimeTable> &tables) {
-  Sum h = 8;
+Sum OfBody(const Tables &t) {
+  Sum h = 9;
+  for (double value : {t.gravity[0], t.gravity[1], t.gravity[2], t.beta}) h = MixReal(h, value);
+  return MixBits(h, t.releases);
+}
+
+}  // namespace
+
+std::uint64_t OfTables(const std::vector<TimeTable> &tables) {
+  std::uint64_t h = 8;
   for (const TimeTable &t : tables) {
-    h = MixBits(h, static_cast<Sum>(t.type));
+    h = MixBits(h, static_cast<std::uint64_t>(t.type));
     for (double value : {t.frequency, t.delay, t.amplitude}) h = MixReal(h, value);
     for (const std::vector<double> *column : {&t.time, &t.value}) {
       h = MixBits(h, column->size());
@@ -135,14 +143,6 @@ Sum OfTables(const std::vector<TimeTable> &tables) {
   }
   return h;
 }
-
-Sum OfBody(const Tables &t) {
-  Sum h = 9;
-  for (double value : {t.gravity[0], t.gravity[1], t.gravity[2], t.beta}) h = MixReal(h, value);
-  return MixBits(h, t.releases);
-}
-
-}  // namespace
 
 PetscErrorCode TakeFingerprint(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &face_interface,
                                const Tables &tables, const std::vector<TimeTable> &time_tables,

@@ -18,6 +18,9 @@ PetscErrorCode TakeFingerprint(const Mesh &mesh, const Nodes &nodes, const std::
                                const Tables &tables, const std::vector<TimeTable> &time_tables,
                                Fingerprint *fingerprint);
 
+/// Checksum of time tables.
+std::uint64_t OfTables(const std::vector<TimeTable> &tables);
+
 /// What of it differs: "other coordinates of the mesh", "60 elements, and 75 now", or "".
 std::string FingerprintDifference(const Fingerprint &was, const Fingerprint &now);
 

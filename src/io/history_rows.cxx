@@ -151,6 +151,7 @@ PetscErrorCode FindHistoryRows(const Mesh &mesh, const Nodes &nodes, const Table
         kind.timed = decltype(law)::kJudgesMean;
         kind.name =
             std::string("elements_") + Info(shape).name + "_" + decltype(form)::kName + "_" + decltype(law)::kName;
+        if (BlockLaws::Find(decltype(law)::kName) != k % kMostLaws) kind.name += "_offset";
       });
       for (std::size_t g = 0; g < tables.elements.size(); ++g)
         if (ElementKind(tables.elements[g]) == k) kind.table = static_cast<int>(g);

@@ -15,8 +15,6 @@ namespace {
 const char *const kMeshSets[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points", "Connectivity",
                                  "Offsets",        "Types"};
 
-std::string MeshName(const std::string &name) { return name + "_mesh_000.h5"; }
-
 // The attributes by which VTK knows the file.
 void Describe(Hdf5File *file) {
   file->Integers("Version", {1, 0});
@@ -33,12 +31,17 @@ VtkSeries::~VtkSeries() {
   (void)PetscSFDestroy(&cell_sf_);
 }
 
-PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string &dir, const std::string &name, const VtkMesh &mesh) {
+PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string &dir, const std::string &name, const VtkMesh &mesh,
+                                 int number) {
   PetscFunctionBeginUser;
   comm_ = comm;
   dir_ = dir;
   name_ = name;
-  frames_.clear();
+  char tail[20];
+  std::snprintf(tail, sizeof tail, "_mesh_%03d.h5", number);
+  mesh_name_ = name + tail;
+  PetscCall(PetscSFDestroy(&point_sf_));
+  PetscCall(PetscSFDestroy(&cell_sf_));
   Hdf5Block points, cells;
   PetscCall(CreateBlocks(comm, mesh.point_global, "points", &point_sf_, &points));
   PetscCall(CreateBlocks(comm, mesh.cell_global, "cells", &cell_sf_, &cells));
@@ -98,7 +101,7 @@ PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string &dir, const st
     ++offsets.rows;
   }
 
-  Hdf5File file(comm, dir_ + "/" + MeshName(name_) + ".part");
+  Hdf5File file(comm, dir_ + "/" + mesh_name_ + ".part");
   PetscCall(file.Open("VTKHDF", 24 * points_total_ + 8 * total[0] + 9 * cells_total_));
   Describe(&file);
   const Hdf5Block one = {1, 0, rank == 0 ? 1u : 0u};
@@ -110,7 +113,7 @@ PetscErrorCode VtkSeries::Create(MPI_Comm comm, const std::string &dir, const st
   PetscCall(file.Write(top, "Connectivity", i64, n64, ids, 0, connectivity.data()));
   PetscCall(file.Write(top, "Offsets", i64, n64, offsets, 0, ends.data()));
   PetscCall(file.Write(top, "Types", H5T_STD_U8LE, H5T_NATIVE_UINT8, cells, 0, types.data()));
-  PetscCall(file.Finish(dir_ + "/" + MeshName(name_)));
+  PetscCall(file.Finish(dir_ + "/" + mesh_name_));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -128,7 +131,7 @@ PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vect
   Hdf5File file(comm_, dir_ + "/" + frame + ".part");
   PetscCall(file.Open("VTKHDF", 8 * numbers));
   Describe(&file);
-  for (const char *name : kMeshSets) file.Link(name, MeshName(name_), std::string("/VTKHDF/") + name);
+  for (const char *name : kMeshSets) file.Link(name, mesh_name_, std::string("/VTKHDF/") + name);
   const Hdf5Block one = {1, 0, rank == 0 ? 1u : 0u};
   const std::int64_t steps = step;
   const hid_t own = file.Group("FieldData");

@@ -1,5 +1,5 @@
 // A time series for ParaView: one VTKHDF file a frame (NAME_000000.hdf), the mesh once in NAME_mesh_000.h5 linked from
-// every frame, and NAME.hdf.series. A frame counts as written when it was renamed from .part; the series follows.
+// every frame (NAME_mesh_001.h5, ... once elements have left), and NAME.hdf.series. A frame counts as written when it was renamed from .part; the series follows.
 #pragma once
 #include "io/earlier_run.hpp"
 
@@ -31,8 +31,10 @@ struct VtkField {
 class VtkSeries {
  public:
   ~VtkSeries();
-  /// Writes the mesh file in folder dir (which exists). Collective.
-  PetscErrorCode Create(MPI_Comm comm, const std::string &dir, const std::string &name, const VtkMesh &mesh);
+  /// Writes the mesh file in folder dir (which exists); frames from now on are of this mesh. Collective. [in] number: of
+  /// the mesh among those of the series.
+  PetscErrorCode Create(MPI_Comm comm, const std::string &dir, const std::string &name, const VtkMesh &mesh,
+                        int number = 0);
   /// Goes on behind frames that an earlier run has left in the folder: the series names them alone now. Collective.
   PetscErrorCode Continue(const std::vector<KeptFrame> &frames);
   /// Writes one frame and then the series file, each safely (temporary file, rename). Collective. The file of a frame is
@@ -44,7 +46,7 @@ class VtkSeries {
   PetscErrorCode WriteList() const;
 
   MPI_Comm comm_ = MPI_COMM_NULL;
-  std::string dir_, name_;
+  std::string dir_, name_, mesh_name_;
   PetscSF point_sf_ = nullptr, cell_sf_ = nullptr;  // from this rank's rows to contiguous blocks of the file
   PetscInt n_points_ = 0, n_cells_ = 0;             // of this rank
   std::int64_t point_offset_ = 0, cell_offset_ = 0, points_total_ = 0, cells_total_ = 0;

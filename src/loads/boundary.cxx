@@ -4,6 +4,7 @@
 #include "core/options.hpp"
 #include "core/small.hpp"
 #include "loads/quiet.hpp"
+#include "loads/supports.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/interfaces.hpp"
 
@@ -56,11 +57,13 @@ PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vecto
             b->name.c_str(), mesh.point_sets[b->point_set].c_str());
   bool any = b->quiet;
   PetscCall(options.Text(key("fix"), &word, &set));
-  CdemCheck(!b->quiet || !set, mesh.comm,
+  bool with_wave = false;
+  if (b->quiet) PetscCall(ReadRelease(options, b, &with_wave));
+  CdemCheck(!b->quiet || !set || b->lets_go, mesh.comm,
             "boundary '%s' is quiet and has %s: what is fixed cannot absorb; give one, or fix those components on a "
-            "boundary of another name",
+            "boundary of another name, or let a later stage make it quiet",
             b->name.c_str(), Options::Spelled(key("fix")).c_str());
-  if (set) {
+  if (set && !b->quiet) {
     PetscCall(ParseComponents(mesh.comm, key("fix"), word, wanted));
     for (int k = 0; k < 3; ++k)
       if (wanted[k]) b->kind[k] = kVelocity;
@@ -74,10 +77,10 @@ PetscErrorCode ReadBoundary(const Mesh &mesh, Options &options, const std::vecto
   for (int m = 0; m < 2; ++m) PetscCall(options.Reals(key(motions[m].first), 3, value[m], &moved[m]));
   CdemCheck(!(moved[0] && moved[1]), mesh.comm, "boundary '%s' prescribes both velocity and displacement: give one",
             b->name.c_str());
-  CdemCheck(!b->quiet || !moved[1], mesh.comm,
+  CdemCheck(!b->quiet || !moved[1] || b->lets_go, mesh.comm,
             "boundary '%s' is quiet and has a displacement: an incoming wave is given by its velocity",
             b->name.c_str());
-  if (b->quiet && moved[0]) {
+  if (with_wave) {
     b->wave = true;
     for (int k = 0; k < 3; ++k) b->incoming[k] = only[k] ? value[0][k] : 0;
   }

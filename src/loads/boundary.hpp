@@ -19,6 +19,8 @@ struct Boundary {
   double pressure_gradient_z = 0;       ///< Pa/m
   double traction_gradient_z = 0;       ///< of the traction, as a share of it [1/m]
   bool quiet = false;                   ///< dashpots on its faces
+  bool lets_go = false;                 ///< it is quiet since a stage, and was held in those before
+  bool keeps_reactions = true;          ///< which go on as constant forces
   bool wave = false;                    ///< and a plane wave that comes in through them
   double incoming[3] = {0, 0, 0};       ///< particle velocity of that wave [m/s], times the table
   int table = 0;
@@ -46,7 +48,8 @@ PetscErrorCode ReadHistories(const Mesh &mesh, const Nodes &nodes, Options &opti
 /// Turns boundaries and histories into rows of records (none when there is nothing). Where two boundaries prescribe one
 /// component the later one has it; loads and dashpots add. Fixed components of v (initial velocities) are left to the
 /// first step. [in] removed: as for BuildTables, which comes before; nodes without mass are held. Loads and dashpots lie on
-/// the outer boundary as it is by then. A wave that comes in is the load 2 C v_in: half of it is the wave's own stress, half moves the dashpots.
+/// the outer boundary as it is by then. A wave that comes in is the load 2 C v_in: half of it is the wave's own stress, half
+/// moves the dashpots.
 PetscErrorCode BuildRecords(const Mesh &mesh, const Nodes &nodes, const std::vector<Boundary> &boundaries,
                             const std::vector<Material> &materials, const std::vector<char> &removed,
                             std::vector<History> &histories, Tables *tables);

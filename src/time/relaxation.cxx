@@ -43,24 +43,24 @@ static constexpr double kOfStored = 1e-6;
 bool Relaxation::Check(const BalanceSums &sums) {
   last_ = {Rounded(sums.kinetic), Rounded(sums.stored), Rounded(sums.unbalanced), Rounded(sums.stiffness),
            Rounded(sums.inertia)};
-  peak_ = std::max(peak_, last_.kinetic);
+  memory_.peak = std::max(memory_.peak, last_.kinetic);
   // Rayleigh's quotient of the path since the last check: the frequency of what still moves, mostly the lowest one.
-  if (last_.inertia > 0 && last_.stiffness > 0) alpha_ = 2 * std::sqrt(Rounded(last_.stiffness / last_.inertia));
+  if (last_.inertia > 0 && last_.stiffness > 0) memory_.alpha = 2 * std::sqrt(Rounded(last_.stiffness / last_.inertia));
   // A body that starts in balance has no peak but rounding: there the energy that it stores is the measure.
-  const double reference = std::max(peak_, kOfStored * last_.stored);
+  const double reference = std::max(memory_.peak, kOfStored * last_.stored);
   const bool calm = last_.unbalanced <= plan_.ratio && last_.kinetic <= plan_.kinetic * reference;
-  calm_ = calm ? calm_ + 1 : 0;
-  return calm_ >= 2;  // a kinetic energy that only turns is small for one check
+  memory_.calm = calm ? memory_.calm + 1 : 0;
+  return memory_.calm >= 2;  // a kinetic energy that only turns is small for one check
 }
 
 bool Relaxation::PassedPeak(double kinetic) {
   const double now = Rounded(kinetic);
-  peak_ = std::max(peak_, now);
-  if (now >= rising_) {
-    rising_ = now;
+  memory_.peak = std::max(memory_.peak, now);
+  if (now >= memory_.rising) {
+    memory_.rising = now;
     return false;
   }
-  rising_ = 0;
+  memory_.rising = 0;
   return true;
 }
 

@@ -31,7 +31,14 @@ struct BalanceSums {
   double inertia = 0;     ///< du . M du [kg m^2]
 };
 
-/// Watches the checks of one relaxation. Steers by sums rounded to 40 bits, so that it does not see how they were added.
+/// What a relaxation remembers from one check to the next.
+struct RelaxMemory {
+  double peak = 0, rising = 0;  ///< kinetic energy: the largest so far; the last one on the way to the next peak [J]
+  double alpha = 0;             ///< 1/s
+  int calm = 0;                 ///< checks in a row that found the body in balance
+};
+
+/// Watches the checks of one relaxation. Steers by sums rounded to 40 bits, so that CPU and GPU see the same.
 class Relaxation {
  public:
   explicit Relaxation(const RelaxPlan &plan) : plan_(plan) {}
@@ -42,15 +49,17 @@ class Relaxation {
   /// Whether the kinetic energy has just passed a peak (kinetic damping looks at it between checks too). [J]
   bool PassedPeak(double kinetic);
   /// Damping by mass [1/s] that is critical for the lowest frequency seen; 0 before anything is known.
-  double Alpha() const { return alpha_; }
+  double Alpha() const { return memory_.alpha; }
   const BalanceSums &last() const { return last_; }
-  double peak() const { return peak_; }  ///< of the kinetic energy so far [J]
+  double peak() const { return memory_.peak; }  ///< of the kinetic energy so far [J]
+  const RelaxMemory &memory() const { return memory_; }
+  /// Goes on from what an earlier run remembered.
+  void Recall(const RelaxMemory &memory) { memory_ = memory; }
 
  private:
   RelaxPlan plan_;
   BalanceSums last_;
-  double peak_ = 0, rising_ = 0, alpha_ = 0;
-  int calm_ = 0;  ///< checks in a row that found the body in balance
+  RelaxMemory memory_;
 };
 
 }  // namespace cdem

@@ -64,7 +64,9 @@ LAWS = {
     "drucker_prager": {"block_law": "drucker_prager", "block_cohesion": 1e7, "block_friction": 30.0},
     "mohr_coulomb": {"block_law": "mohr_coulomb", "block_cohesion": 1e7, "block_friction": 30.0},
     "breakage": {"block_law": "breakage", "block_cohesion": 1e7, "block_friction": 30.0, "block_tension": 1e6},
-    "brittle springs": BRITTLE,
+    "spring blocks": {"block_law": "spring", "block_cohesion": 1e7, "block_friction": 30.0, "block_tension": 1e6},
+    "brittle springs": BRITTLE, "spring blocks, brittle springs": {
+        **BRITTLE, "block_law": "spring", "block_cohesion": 1e7, "block_friction": 30.0, "block_tension": 1e6},
     "elastic springs": {**BRITTLE, "interface_j_law": "elastic", "interface_j_tension": None, "interface_j_cohesion": None,
                         "interface_j_friction": None},
     "softening springs": {**BRITTLE, "interface_j_law": "softening", "interface_j_tension": 1e6,
@@ -87,11 +89,22 @@ def test_stress_from_the_start_is_in_balance(name, tmp_path):
     rows = np.atleast_2d(np.loadtxt(tmp_path / "balance.txt"))
     assert rows.shape[0] == 3
     assert rows[:, 3].max() < 1e-13, rows
+    assert done.summary.get("broken_blocks", 0) == 0
     frame = done.last_frame()
     assert np.abs(frame.point_data["displacement"]).max() < 1e-15
     depth = frame.centres()[:, 2]
     assert np.allclose(frame.cell_data["stress"][:, 0], -1e6, rtol=1e-9)
     assert np.allclose(frame.cell_data["stress"][:, 2], -1.5e5 + 2.5e4 * depth, atol=2e3)  # mean of the element
+
+
+def test_spring_blocks_break_under_the_stress_from_the_start(tmp_path):
+    """Uniform tension above the strength breaks every element, below it none: in pairs of cells that nothing holds."""
+    scene = {"mesh": "box", "mesh_box_cells": (2, 2, 2), "mesh_box_size": (2, 2, 2), "block_law": "spring", "block_young": 1e10,
+             "block_poisson": 0.25, "block_density": 2500.0, "block_cohesion": 1e7, "block_friction": 30.0, "block_tension": 1e6,
+             "boundaries": ("xmin", "xmax"), "boundary_xmin_fix": "xyz", "boundary_xmax_fix": "xyz", "ts_max_steps": 1}
+    for stress, broken in ((1.1e6, 1), (0.9e6, 0)):
+        done = harness.run(tmp_path / str(stress), {**scene, "block_stress": (stress, 0, 0, 0, 0, 0)})
+        assert done.summary["broken_blocks"] == broken
 
 
 def test_removed_region_takes_its_weight_along(tmp_path):
@@ -167,3 +180,56 @@ def test_stages_do_not_depend_on_ranks(ranks, tmp_path):
     one = harness.run(tmp_path / "1", scene)
     many = harness.run(tmp_path / "n", scene, ranks=ranks)
     assert (one.out / "histories.csv").read_bytes() == (many.out / "histories.csv").read_bytes()
+
+
+QUIET = {**SOIL, "stages": ("settle", "wait"), "stage_wait_solve": "dynamic", "stage_wait_ts_max_steps": 10000,
+         "stage_wait_boundary_base_quiet": "true", "output_interval": 2000}
+del QUIET["stage_dig_remove"]
+
+
+def drift(done, name="rock"):
+    """How far a history moves after the first stage, over what it had moved by then."""
+    rows = done.histories()
+    settled = list(rows["step"]).index(done.summary["stages"][0]["steps"])
+    values = np.asarray(rows[name])
+    return np.abs(values[settled:] - values[settled]).max() / abs(values[settled])
+
+
+@pytest.mark.parametrize("more", [{}, {"boundaries": ("base",)}, {"damping_beta": 1e-5}],
+                         ids=["column", "free sides", "damped"])
+def test_quiet_base_carries_the_weight(more, tmp_path):
+    """A base that becomes quiet keeps its reactions: the body stays where it has settled."""
+    scene = {**QUIET, **more}
+    if "boundaries" in more:
+        del scene["boundary_sides_fix"]
+    assert drift(harness.run(tmp_path, scene)) < 1e-6
+
+
+def test_quiet_base_that_drops_its_reactions_sinks(tmp_path):
+    done = harness.run(tmp_path, {**QUIET, "boundary_base_release": "drop", "stage_wait_ts_max_steps": 1000})
+    assert drift(done) > 1
+    assert "so the body sinks" in done.stdout
+
+
+def test_held_forces_go_on_through_stages(tmp_path):
+    """They stay while the boundary is quiet, leave when it is held again, and come anew when it is let go again."""
+    scene = {**QUIET, "stages": ("settle", "wait", "on", "hold", "again"), "stage_wait_ts_max_steps": 500,
+             "stage_on_damping_alpha": 1.0, "stage_hold_boundary_base_quiet": "false", "stage_hold_gravity": (0, 0, -12),
+             "stage_hold_solve": "relax", "stage_again_boundary_base_quiet": "true", "stage_again_solve": "dynamic",
+             "stage_again_ts_max_steps": 2000}
+    done = harness.run(tmp_path, scene)
+    rows, steps = done.histories(), [stage["steps"] for stage in done.summary["stages"]]
+    z, start = np.asarray(rows["rock"]), np.searchsorted(rows["step"], np.cumsum(steps))
+    assert np.abs(z[start[0]:start[2]] / z[start[0]] - 1).max() < 1e-6
+    assert abs(z[start[3]] / z[start[0]] - 1.2) < 1e-5
+    assert np.abs(z[start[3]:] / z[start[3]] - 1).max() < 1e-6
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"stage_wait_boundary_base_fix": "xyz"}, "boundary 'base' is quiet and has"),
+    ({"stage_settle_boundary_base_quiet": "true"}, "boundary 'base' is quiet and has"),
+    ({"boundary_sides_release": "drop"}, "no use for -boundary_sides_release"),
+])
+def test_release_that_makes_no_sense(change, message, tmp_path):
+    done = harness.call(tmp_path, {**QUIET, **change})
+    assert done.returncode == 1 and message in done.stderr, done.stderr
