@@ -215,7 +215,7 @@ REFUSED = [
     ({"stages": ["settle", "shake"]}, "-stages was settle,"),
     ({"stages": ["settle"]}, "is of stage number 2, and there are 1"),
     ({"relax_damping": "local"}, "-relax_damping was"),
-    ({"stage_settle_relax_ratio": 1e-3}, "other lengths or time tables of the stages before"),
+    ({"stage_settle_relax_ratio": 1e-2}, "other lengths or time tables of the stages before"),
     ({f"stage_{NAMES[1]}_ts_max_steps": 5}, f"is at step 11: steps count from the start of stage '{NAMES[1]}'"),
 ]
 
