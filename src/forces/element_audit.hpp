@@ -109,12 +109,15 @@ CDEM_HD_CALL T EnergyOf(const T x[][3], const T field[][3], const T *param) {
 template <class Law, class T>
 struct CornerPoint {
   const T *param;
-  T *code, *energy;  ///< [point]; sum [J]
+  const ElementHistory<T> *history;  ///< of the offset, where there is one
+  T *code, *energy;                  ///< [point]; sum [J]
 
   CDEM_HD void operator()(int g, const T strain[6], T volume, const T area[3][3], T stress[6]) const {
-    T state[1] = {code[g]};
+    T state[Law::kState];
+    CDEM_UNROLL for (int i = 0; i + 1 < Law::kState; ++i) state[i] = history->Get(g * Law::kState + i);
+    state[Law::kState - 1] = code[g];
     Law::Stress(param, strain, area, state, stress);
-    code[g] = state[0];
+    code[g] = state[Law::kState - 1];
     *energy += volume * ElasticEnergy(param[Elastic::kLambda], param[Elastic::kMu], stress);
   }
   CDEM_HD T ShearModulus() const { return param[Elastic::kMu]; }
@@ -153,13 +156,13 @@ CDEM_HD void AuditedStep(const T x[][3], T u[][3], const T beta_rate[][3], const
       CDEM_UNROLL for (int a = 0; a < corners; ++a) CDEM_UNROLL for (int k = 0; k < 3; ++k) u[a][k] += beta_rate[a][k];
     ElementForce<Form, Law, false>(x, u, param, f, static_cast<ElementSums<T> *>(nullptr));
   } else if constexpr (Law::kAtCorners) {
-    failed_before = history->touched;
+    failed_before = Failed<Law>(*history);
     T code[Form::kPoints];
     CDEM_UNROLL for (int g = 0; g < Form::kPoints; ++g) code[g] = zero;
     if (Any(history->touched))
-      CDEM_UNROLL for (int g = 0; g < Form::kPoints; ++g) code[g] = history->Get(g * Law::kState);
+      CDEM_UNROLL for (int g = 0; g < Form::kPoints; ++g) code[g] = history->Get(g * Law::kState + Law::kState - 1);
     Form::Forces(x, u, PointOf<Law, false, T>{param, nullptr, history}, f);
-    failed = history->touched | history->changed;
+    failed = Failed<Law>(*history);
     if (Any(failed)) {
       T was[corners][3], now[corners][3], before[corners][3], after[Form::kPoints], u_before = zero, u_after = zero;
       T strong[Law::kParams];  // at the step's beginning nothing more breaks than had broken
@@ -168,8 +171,8 @@ CDEM_HD void AuditedStep(const T x[][3], T u[][3], const T beta_rate[][3], const
       CDEM_UNROLL for (int g = 0; g < Form::kPoints; ++g) after[g] = code[g];
       CDEM_UNROLL for (int a = 0; a < corners; ++a) CDEM_UNROLL for (int k = 0; k < 3; ++k) before[a][k] =
           u[a][k] - audit->step[a][k];
-      Form::Forces(x, before, CornerPoint<Law, T>{strong, code, &u_before}, was);
-      Form::Forces(x, u, CornerPoint<Law, T>{param, after, &u_after}, now);
+      Form::Forces(x, before, CornerPoint<Law, T>{strong, history, code, &u_before}, was);
+      Form::Forces(x, u, CornerPoint<Law, T>{param, history, after, &u_after}, now);
       T work = zero;
       CDEM_UNROLL for (int a = 0; a < corners; ++a) CDEM_UNROLL for (int k = 0; k < 3; ++k) work +=
           0.5 * (was[a][k] + now[a][k]) * audit->step[a][k];
