@@ -33,12 +33,12 @@ class CudaBackend final : public Backend {
     if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
   }
 
-  PetscErrorCode Create(int n_owned_cells, const std::string &way) {
+  PetscErrorCode Create(int n_owned_cells, bool audit, const std::string &way) {
     PetscFunctionBeginUser;
     PetscDeviceContext context;
     PetscCall(PetscDeviceInitialize(PETSC_DEVICE_CUDA));       // PETSc chooses the device of this rank
     PetscCall(PetscDeviceContextGetCurrentContext(&context));  // which settles PETSc's stream
-    PetscCall(tables_.Create(t_, n_owned_cells));
+    PetscCall(tables_.Create(t_, n_owned_cells, audit));
     PetscCall(u_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
     PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
     PetscCall(batch_.Allocate(1));
@@ -171,6 +171,41 @@ class CudaBackend final : public Backend {
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
+  PetscErrorCode Audit(const StepArgs &next, const double *schedule, AuditSums *sums) override {
+    PetscFunctionBeginUser;
+    const PetscScalar *u, *v;
+    PetscCheck(tables_.audited(), PETSC_COMM_SELF, PETSC_ERR_ORDER, "the energy audit is off");
+    PetscCall(VecCUDAGetArrayRead(vec_u_, &u));
+    PetscCall(VecCUDAGetArrayRead(vec_v_, &v));
+    PetscCall(Reserve(1));
+    if (schedule_.size() > 0)
+      CdemCuda(cudaMemcpy(schedule_.get(), schedule, 3 * sizeof(double) * t_.n_tables, cudaMemcpyHostToDevice));
+    scheduled_ = 0;
+    *state_.get() = BatchState{0, 0, ~0ull, 0, 0, 0};
+    CdemCuda(cudaMemcpy(batch_.get(), state_.get(), sizeof(BatchState), cudaMemcpyHostToDevice));
+    PetscCall(Halo());
+    CdemCuda(cudaDeviceSynchronize());
+    LaunchArgs plain = launch_;
+    plain.overlap = plain.timed = false;
+    PetscCall(tables_.Audit(View(), next, batch_.get(), plain, sums));
+    PetscCall(VecCUDARestoreArrayRead(vec_u_, &u));
+    PetscCall(VecCUDARestoreArrayRead(vec_v_, &v));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscErrorCode DownloadAudit(const AuditArrays **arrays) override {
+    PetscFunctionBeginUser;
+    CdemCuda(cudaDeviceSynchronize());
+    PetscCall(tables_.DownloadAudit(&host_audit_));
+    *arrays = &host_audit_;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscErrorCode UploadAudit(const AuditArrays &arrays) override {
+    PetscFunctionBeginUser;
+    PetscCall(tables_.UploadAudit(arrays));
+    CdemCuda(cudaDeviceSynchronize());
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+
   PetscErrorCode Synchronize() override {
     PetscFunctionBeginUser;
     CdemCuda(cudaDeviceSynchronize());
@@ -183,7 +218,9 @@ class CudaBackend final : public Backend {
     PetscFunctionBeginUser;
     if (way == "reference") PetscFunctionReturn(PETSC_SUCCESS);
     auto rows = std::make_unique<RowsWay>();
-    std::string why = launch_.timed ? "-log_view_gpu_time" : "";
+    std::string why = launch_.timed       ? "-log_view_gpu_time"
+                      : tables_.audited() ? "the energy balance is kept (-monitor_energy)"
+                                          : "";
     if (why.empty()) PetscCall(rows->Create(t_, &why));
     CdemCheck(way == "auto" || why.empty(), t_.comm, "-central_way rows: this scene cannot go that way: %s",
               why.c_str());
@@ -234,7 +271,7 @@ class CudaBackend final : public Backend {
     if (!t_.halo) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscLogEventBegin(events.halo, nullptr, nullptr, nullptr, nullptr));
     for (const DeviceArray<double> *field : {&u_, &v_}) {
-      if (field == &v_ && t_.beta == 0) break;
+      if (field == &v_ && t_.beta == 0 && !tables_.audited()) break;
       double *ghosts = field->get() + 3 * static_cast<std::size_t>(t_.n_owned);
       PetscCall(PetscSFBcastWithMemTypeBegin(t_.halo, unit_, PETSC_MEMTYPE_CUDA, field->get(), PETSC_MEMTYPE_CUDA,
                                              ghosts, MPI_REPLACE));
@@ -258,15 +295,16 @@ class CudaBackend final : public Backend {
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;
   std::vector<double> host_u_, host_v_;
   Histories host_history_;
+  AuditArrays host_audit_;
 };
 
 }  // namespace
 
-PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block,
+PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block, bool audit,
                                  const std::string &way, std::unique_ptr<Backend> *backend) {
   PetscFunctionBeginUser;
   auto made = std::make_unique<CudaBackend>(tables, elements_per_block);
-  PetscCall(made->Create(n_owned_cells, way));
+  PetscCall(made->Create(n_owned_cells, audit, way));
   *backend = std::move(made);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -5,7 +5,7 @@
 
 namespace cdem {
 
-PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells) {
+PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells, bool audit) {
   PetscFunctionBeginUser;
   t_ = &tables;
   PetscCall(x_.Upload(tables.x));
@@ -64,6 +64,7 @@ PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells) {
   }
   PetscCall(BuildSlotLists());
   PetscCall(CreateAverages());
+  if (audit) PetscCall(CreateAudit());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -109,11 +110,16 @@ std::size_t DeviceTables::Bytes() const {
   std::size_t bytes = 0;
   auto add = [&](const auto &...array) { ((bytes += array.bytes()), ...); };
   add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_,
-      load_start_, load_table_, watch_, quiet_, kind_, value_, load_, dashpot_, weight_, last_, partial_, undamped_);
+      load_start_, load_table_, watch_, quiet_, kind_, value_, load_, dashpot_, weight_, last_, partial_, undamped_,
+      node_work_, row_work_, speed_, half_, weight_u_, load_wave_);
   add(averages_.start, averages_.entry, averages_.inverse_volume, averages_.dilatation, averages_.pressure,
-      averages_.of_dilatation, averages_.of_pressure);
-  for (const Elements &e : elements_) add(e.node, e.material, e.layer, e.counted, e.state, e.value, e.broken_time);
-  for (const Springs &s : springs_) add(s.a, s.b, s.joint, s.normal, s.area, s.kn, s.ks, s.history, s.state, s.counted);
+      averages_.of_dilatation, averages_.of_pressure, averages_.before);
+  for (const Elements &e : elements_)
+    add(e.node, e.material, e.layer, e.counted, e.state, e.value, e.broken_time, e.work, e.each);
+  for (const Springs &s : springs_)
+    add(s.a, s.b, s.joint, s.normal, s.area, s.kn, s.ks, s.history, s.state, s.counted, s.work, s.viscous, s.each);
+  for (const auto &a : kept_.numbers) add(a);
+  for (const auto &a : kept_.states) add(a);
   return bytes;
 }
 
@@ -132,6 +138,7 @@ NodeView DeviceTables::Nodes(double *u, double *v, const double *schedule, doubl
   n.load_start = load_start_.get();
   n.load_table = load_table_.get();
   n.load = load_.get();
+  n.load_wave = load_wave_.get();
   n.watch = watch_.get();
   n.quiet = quiet_.get();  // NULL without dashpots
   n.dashpot = dashpot_.get();

@@ -1,6 +1,8 @@
 // The tables on the device, and the launches of one step over them.
 #pragma once
+#include "cuda/audit_kernels.cuh"
 #include "cuda/device_array.cuh"
+#include "cuda/order_free_sum.cuh"
 #include "cuda/dilatation.cuh"
 #include "cuda/element_kernels.cuh"
 #include "cuda/launch.cuh"
@@ -13,7 +15,8 @@ namespace cdem {
 /// Device copies of Tables, and the state of the springs.
 class DeviceTables {
  public:
-  PetscErrorCode Create(const Tables &tables, int n_owned_cells);
+  /// [in] audit: energies are followed from step to step.
+  PetscErrorCode Create(const Tables &tables, int n_owned_cells, bool audit);
   std::size_t Bytes() const;
 
   /// Pointers of the nodes; schedule and history are the caller's device buffers.
@@ -22,6 +25,12 @@ class DeviceTables {
   PetscErrorCode LaunchStep(const NodeView &nodes, const StepArgs &args, BatchState *batch, const LaunchArgs &launch);
   /// Sums over what this rank counts; waits for them.
   PetscErrorCode Observe(const NodeView &nodes, const StepArgs &args, cudaStream_t stream, Observed *observed);
+  /// The balance at u(n) over all ranks; the state is put back as it was.
+  PetscErrorCode Audit(const NodeView &nodes, const StepArgs &args, BatchState *batch, const LaunchArgs &launch,
+                       AuditSums *sums);
+  PetscErrorCode DownloadAudit(AuditArrays *arrays) const;
+  PetscErrorCode UploadAudit(const AuditArrays &arrays);
+  bool audited() const { return audited_; }
   PetscErrorCode DownloadHistories(Histories *histories) const;
   PetscErrorCode UploadHistories(const Histories &histories);
 
@@ -32,12 +41,19 @@ class DeviceTables {
     std::size_t average_start = 0;  ///< first slot among the integrals of all tables that average
     DeviceArray<std::uint8_t> counted, state;
     DeviceArray<double> value, broken_time;
+    DeviceArray<double> work, each;  ///< of the audit: [kElementWorks][n_pad]; energies, once they are asked for
   };
   struct Springs {
     const SpringTable *host;
     DeviceArray<int> a, b, joint;
     DeviceArray<double> normal, area, kn, ks, history;
     DeviceArray<std::uint8_t> state, counted;
+    DeviceArray<double> work, viscous, each;  ///< of the audit: [kSpringWorks][n_pad], [3][n_pad], energies
+  };
+  /// What an audit changes and puts back.
+  struct Kept {
+    std::vector<DeviceArray<double>> numbers;
+    std::vector<DeviceArray<std::uint8_t>> states;
   };
   PetscErrorCode BuildSlotLists();
   PetscErrorCode CreateAverages();
@@ -45,8 +61,20 @@ class DeviceTables {
   /// Around the element kernels, in scenes whose elements average: dilatations before them, pressures after them.
   PetscErrorCode LaunchDilatation(const double *u, const double *v, double beta, const LaunchArgs &launch);
   PetscErrorCode LaunchPressure(const LaunchArgs &launch);
-  PetscErrorCode LaunchElements(const NodeView &nodes, BatchState *batch, const LaunchArgs &launch);
-  PetscErrorCode LaunchSprings(const NodeView &nodes, const LaunchArgs &launch);
+  PetscErrorCode LaunchElements(const NodeView &nodes, const StepArgs &args, BatchState *batch,
+                                const LaunchArgs &launch);
+  PetscErrorCode LaunchSprings(const NodeView &nodes, const StepArgs &args, const LaunchArgs &launch);
+  /// The same with the audit, of a table that can dissipate.
+  PetscErrorCode LaunchAudited(const Elements &e, const ElementView &view, const StepArgs &args, bool last,
+                               BatchState *batch, bool first, const LaunchArgs &launch);
+  PetscErrorCode LaunchAudited(const Springs &s, const SpringView &view, const StepArgs &args,
+                               const LaunchArgs &launch);
+  PetscErrorCode LaunchNodes(const NodeView &nodes, const StepArgs &args, BatchState *batch, const LaunchArgs &launch);
+  PetscErrorCode CreateAudit();
+  template <class F>
+  void EachAudited(F &&f);  ///< f(array) with every array that an audit changes
+  PetscErrorCode FillEnergies(const NodeView &nodes, const LaunchArgs &launch);  ///< of each element and spring
+  NodeWorks Works() const { return {node_work_.get(), row_work_.get(), t_->records.n}; }
   ElementView View(const Elements &e, const double *u, const double *v, double beta, bool early = false) const;
   SpringView View(const Springs &s, const double *u, const double *v, double beta, bool early = false) const;
   SlotLists Lists(bool early = false) const { return {list_start_.get(), list_entry_.get(), slots_.get(), early}; }
@@ -64,6 +92,11 @@ class DeviceTables {
   DeviceArray<double> value_, load_, dashpot_;
   DeviceArray<double> weight_, last_;       // of damped nodes
   DeviceArray<double> partial_, undamped_;  // only once something is observed
+  bool audited_ = false;
+  DeviceArray<double> node_work_, row_work_, speed_, half_, weight_u_;  // of the audit; the last two at nodes
+  DeviceArray<std::uint8_t> load_wave_;
+  Kept kept_;
+  OrderFreeSum sum_;
 };
 
 }  // namespace cdem

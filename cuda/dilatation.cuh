@@ -31,6 +31,7 @@ struct DeviceAverages {
   DeviceArray<double> inverse_volume;              ///< [n_owned][layer] 1/m^3
   DeviceArray<double> dilatation, pressure;        ///< at the nodes
   DeviceArray<double> of_dilatation, of_pressure;  ///< integrals of the elements
+  DeviceArray<double> before;                      ///< dilatation of the step before, for the energy audit
 };
 
 }  // namespace cdem

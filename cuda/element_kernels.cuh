@@ -95,8 +95,9 @@ __global__ void __launch_bounds__(256) ElementKernel(ElementView t, BatchState *
   if (counts && e == 0) batch->step = batch->next;
 }
 
+/// [out] each: energy of every element [J], or NULL.
 template <class Form, class Law, bool kBeta>
-__global__ void __launch_bounds__(kBlock) ElementObserveKernel(ElementView t, double *partial) {
+__global__ void __launch_bounds__(kBlock) ElementObserveKernel(ElementView t, double *partial, double *each) {
   const int e = blockIdx.x * blockDim.x + threadIdx.x;
   double value[kElementSums] = {0, 0, 0, 0};
   if (e < t.n) {
@@ -104,6 +105,7 @@ __global__ void __launch_bounds__(kBlock) ElementObserveKernel(ElementView t, do
     double force[Form::kCorners][3];
     bool broken = false;
     ElementThread<Form, Law, kBeta, true>(t, e, nullptr, &sums, force, &broken);
+    if (each) each[e] = sums.energy;
     if (t.counted[e]) {
       value[0] = sums.energy;
       for (int a = 0; a < Form::kCorners; ++a)

@@ -10,7 +10,7 @@ namespace cdem {
 inline constexpr int kBlock = 128;       ///< threads of spring and node kernels, and of all observing ones
 inline constexpr int kNodeBlock = 64;    ///< threads of the stepping node kernel: it has few blocks in small scenes
 inline constexpr int kNoSlot = INT_MAX;  ///< padding of the slot lists
-inline constexpr int kElementSums = 4, kSpringSums = 5, kNodeSums = 9;  ///< columns of partial sums
+inline constexpr int kElementSums = 4, kSpringSums = 5, kNodeSums = 10;  ///< columns of partial sums
 
 /// What the kernels of a batch share. The first element kernel of a step sets step from next, the node kernel sets next
 /// from step: no kernel reads what it writes.
@@ -31,6 +31,13 @@ __device__ __forceinline__ void WaitForPrevious(bool early) {
     cudaTriggerProgrammaticLaunchCompletion();
   }
 #endif
+}
+
+/// Copies n numbers, behind what the kernel before wrote.
+static __global__ void __launch_bounds__(kBlock) CopyKernel(int n, bool early, const double *from, double *to) {
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  WaitForPrevious(early);
+  if (i < n) to[i] = from[i];
 }
 
 /// Sums of each block's threads, one row of partial [blocks][n].

@@ -17,19 +17,24 @@ static PetscErrorCode Run(PetscLogEvent event, const LaunchArgs &launch, Phase &
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, BatchState *batch, const LaunchArgs &launch) {
+PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, const StepArgs &args, BatchState *batch,
+                                            const LaunchArgs &launch) {
   PetscFunctionBeginUser;
   const double beta = t_->beta;
   PetscCall(LaunchDilatation(nodes.u, nodes.v, beta, launch));
   for (const Elements &e : elements_) {
     const bool first = &e == &elements_[0];  // says which step it is
+    const ElementView view = View(e, nodes.u, nodes.v, beta, launch.overlap);
+    if (e.work.size() > 0) {
+      PetscCall(LaunchAudited(e, view, args, false, batch, first, launch));
+      continue;
+    }
     PetscErrorCode ierr = PETSC_SUCCESS;
     VisitBlock(e.host->shape, e.host->form, e.host->law, [&](auto form, auto law) {
       using Form = decltype(form);
       using Law = decltype(law);
       auto kernel = beta != 0 ? ElementKernel<Form, Law, true> : ElementKernel<Form, Law, false>;
-      ierr = Launch(kernel, Blocks(e.host->n, launch.block), launch.block, launch,
-                    View(e, nodes.u, nodes.v, beta, launch.overlap), batch, first);
+      ierr = Launch(kernel, Blocks(e.host->n, launch.block), launch.block, launch, view, batch, first);
     });
     PetscCall(ierr);
   }
@@ -37,15 +42,20 @@ PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, BatchState *b
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode DeviceTables::LaunchSprings(const NodeView &nodes, const LaunchArgs &launch) {
+PetscErrorCode DeviceTables::LaunchSprings(const NodeView &nodes, const StepArgs &args, const LaunchArgs &launch) {
   PetscFunctionBeginUser;
   const double beta = t_->beta;
   for (const Springs &s : springs_) {
+    const SpringView view = View(s, nodes.u, nodes.v, beta, launch.overlap);
+    if (s.work.size() > 0) {
+      PetscCall(LaunchAudited(s, view, args, launch));
+      continue;
+    }
     PetscErrorCode ierr = PETSC_SUCCESS;
     JointLaws::Visit(s.host->law, [&](auto law) {
       using Law = decltype(law);
       auto kernel = beta != 0 ? SpringKernel<Law, true> : SpringKernel<Law, false>;
-      ierr = Launch(kernel, Blocks(s.host->n, kBlock), kBlock, launch, View(s, nodes.u, nodes.v, beta, launch.overlap));
+      ierr = Launch(kernel, Blocks(s.host->n, kBlock), kBlock, launch, view);
     });
     PetscCall(ierr);
   }
@@ -55,14 +65,33 @@ PetscErrorCode DeviceTables::LaunchSprings(const NodeView &nodes, const LaunchAr
 PetscErrorCode DeviceTables::LaunchStep(const NodeView &nodes, const StepArgs &args, BatchState *batch,
                                         const LaunchArgs &launch) {
   PetscFunctionBeginUser;
-  PetscCall(Run(events.elements, launch, [&] { return LaunchElements(nodes, batch, launch); }));
-  if (!springs_.empty()) PetscCall(Run(events.springs, launch, [&] { return LaunchSprings(nodes, launch); }));
+  PetscCall(Run(events.elements, launch, [&] { return LaunchElements(nodes, args, batch, launch); }));
+  if (!springs_.empty()) PetscCall(Run(events.springs, launch, [&] { return LaunchSprings(nodes, args, launch); }));
   if (t_->n_owned == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(Run(events.nodes, launch, [&] { return LaunchNodes(nodes, args, batch, launch); }));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DeviceTables::LaunchNodes(const NodeView &nodes, const StepArgs &args, BatchState *batch,
+                                         const LaunchArgs &launch) {
+  PetscFunctionBeginUser;
+  const int blocks = Blocks(t_->n_owned, kNodeBlock);
+  const double *mass = mass_.get();
+  if (audited_) {
+    // what the coming step needs of this one, before the nodes move
+    const int speeds = static_cast<int>(speed_.size()), means = static_cast<int>(averages_.before.size());
+    if (speeds > 0)
+      PetscCall(Launch(CopyKernel, Blocks(speeds, kBlock), kBlock, launch, speeds, launch.overlap,
+                       static_cast<const double *>(nodes.v), speed_.get()));
+    if (means > 0)
+      PetscCall(Launch(CopyKernel, Blocks(means, kBlock), kBlock, launch, means, launch.overlap,
+                       static_cast<const double *>(averages_.dilatation.get()), averages_.before.get()));
+    auto kernel = VisitNodes(*t_, [](auto has) { return AuditedNodeKernel<decltype(has)>; });
+    PetscCall(Launch(kernel, blocks, kNodeBlock, launch, nodes, args, Lists(launch.overlap), batch, mass, Works()));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   auto kernel = VisitNodes(*t_, [](auto has) { return NodeKernel<decltype(has)>; });
-  PetscCall(Run(events.nodes, launch, [&] {
-    return Launch(kernel, Blocks(t_->n_owned, kNodeBlock), kNodeBlock, launch, nodes, args, Lists(launch.overlap),
-                  batch);
-  }));
+  PetscCall(Launch(kernel, blocks, kNodeBlock, launch, nodes, args, Lists(launch.overlap), batch));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

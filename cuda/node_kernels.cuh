@@ -2,6 +2,7 @@
 // threads write one value and the sums do not depend on the launch.
 #pragma once
 #include "cuda/kernel_common.cuh"
+#include "forces/node_audit.hpp"
 #include "forces/observe.hpp"
 
 namespace cdem {
@@ -58,6 +59,39 @@ __global__ void __launch_bounds__(kNodeBlock)
     atomicMin(&batch->failure, static_cast<unsigned long long>(step) << 32 | static_cast<unsigned>(i));
 }
 
+/// NodeKernel with the energy audit.
+template <class Has>
+__global__ void __launch_bounds__(kNodeBlock)
+    AuditedNodeKernel(NodeView n, StepArgs args, SlotLists lists, BatchState *batch, const double *mass,
+                      NodeWorks works) {
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i >= n.n_owned) return;
+  double f[3];
+  const SlotHead head(lists, i);
+  WaitForPrevious(lists.early);
+  SumSlots(lists, head, f);
+  const int step = batch->step;
+  if (i == 0) batch->next = step + 1;
+  AuditNode<Has::kRecords, Has::kQuiet, Has::kDamped>(n, args, i, step, mass[i], f, false, works);
+  if (!NodeStep<Has::kRecords, Has::kQuiet, Has::kDamped>(n, args, i, step, f))
+    atomicMin(&batch->failure, static_cast<unsigned long long>(step) << 32 | static_cast<unsigned>(i));
+}
+
+/// A node's share of the balance: what its works are by now, its kinetic energy, its weight times u.
+template <class Has>
+__global__ void __launch_bounds__(kBlock)
+    NodeBalanceKernel(NodeView n, StepArgs args, SlotLists lists, const double *mass, NodeWorks works, double *half,
+                      double *weight_u) {
+  const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i >= n.n_owned) return;
+  double f[3], now[3];
+  SumSlots(lists, SlotHead(lists, i), f);
+  half[i] = ObserveNode<Has::kRecords, Has::kQuiet, Has::kDamped>(n, args, i, mass[i], f, f, now).half;
+  AuditNode<Has::kRecords, Has::kQuiet, Has::kDamped>(n, args, i, 0, mass[i], f, true, works);
+  const double true_mass = n.weight ? mass[i] * n.weight[i] : mass[i];
+  weight_u[i] = true_mass * Dot(args.gravity, n.u + 3ll * i);
+}
+
 /// Keeps the sums of the slots of an undamped evaluation.
 __global__ inline void __launch_bounds__(kBlock) SumKernel(int n_owned, SlotLists lists, double *f) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
@@ -69,7 +103,7 @@ template <class Has>
 __global__ void __launch_bounds__(kBlock) NodeObserveKernel(NodeView n, StepArgs args, SlotLists lists,
                                                             const double *mass, const double *f, double *partial) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
-  double value[kNodeSums] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+  double value[kNodeSums] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   if (i < n.n_owned) {
     double damped[3], v_now[3];
     SumSlots(lists, SlotHead(lists, i), damped);
@@ -80,14 +114,15 @@ __global__ void __launch_bounds__(kBlock) NodeObserveKernel(NodeView n, StepArgs
     for (int k = 0; k < 3; ++k) value[2 + k] = s.momentum[k];
     value[5] = s.residual;
     value[6] = s.free;
-    value[7] = s.v2;
-    value[8] = s.u2;
+    value[7] = s.load_u;
+    value[8] = s.v2;
+    value[9] = s.u2;
   }
   // the last two are maxima
   using Reduce = cub::BlockReduce<double, kBlock>;
   __shared__ typename Reduce::TempStorage storage;
   for (int k = 0; k < kNodeSums; ++k) {
-    const double r = k < 7 ? Reduce(storage).Sum(value[k])
+    const double r = k < 8 ? Reduce(storage).Sum(value[k])
                            : Reduce(storage).Reduce(value[k], [](double p, double q) { return p > q ? p : q; });
     if (threadIdx.x == 0) partial[static_cast<long long>(blockIdx.x) * kNodeSums + k] = r;
     __syncthreads();

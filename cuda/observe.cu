@@ -38,7 +38,7 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
     const int blocks = Blocks(e.host->n, kBlock);
     VisitBlock(e.host->shape, e.host->form, e.host->law, [&](auto form, auto law) {
       ElementObserveKernel<decltype(form), decltype(law), false>
-          <<<blocks, kBlock, 0, stream>>>(View(e, nodes.u, nodes.v, 0), partial_.get());
+          <<<blocks, kBlock, 0, stream>>>(View(e, nodes.u, nodes.v, 0), partial_.get(), e.each.get());
     });
     CdemCuda(cudaStreamSynchronize(stream));
     PetscCall(AddPartial(blocks, kElementSums, element, 0));
@@ -48,7 +48,7 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
     const int blocks = Blocks(s.host->n, kBlock);
     JointLaws::Visit(s.host->law, [&](auto law) {
       SpringObserveKernel<decltype(law), false>
-          <<<blocks, kBlock, 0, stream>>>(View(s, nodes.u, nodes.v, 0), partial_.get());
+          <<<blocks, kBlock, 0, stream>>>(View(s, nodes.u, nodes.v, 0), partial_.get(), s.each.get());
     });
     CdemCuda(cudaStreamSynchronize(stream));
     PetscCall(AddPartial(blocks, kSpringSums, spring, 0));
@@ -59,13 +59,13 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
     SumKernel<<<node_blocks, kBlock, 0, stream>>>(t_->n_owned, Lists(), undamped_.get());
     for (const Elements &e : elements_)
       VisitBlock(e.host->shape, e.host->form, e.host->law, [&](auto form, auto law) {
-        ElementObserveKernel<decltype(form), decltype(law), true>
-            <<<Blocks(e.host->n, kBlock), kBlock, 0, stream>>>(View(e, nodes.u, nodes.v, t_->beta), partial_.get());
+        ElementObserveKernel<decltype(form), decltype(law), true><<<Blocks(e.host->n, kBlock), kBlock, 0, stream>>>(
+            View(e, nodes.u, nodes.v, t_->beta), partial_.get(), nullptr);
       });
     for (const Springs &s : springs_)
       JointLaws::Visit(s.host->law, [&](auto law) {
-        SpringObserveKernel<decltype(law), true>
-            <<<Blocks(s.host->n, kBlock), kBlock, 0, stream>>>(View(s, nodes.u, nodes.v, t_->beta), partial_.get());
+        SpringObserveKernel<decltype(law), true><<<Blocks(s.host->n, kBlock), kBlock, 0, stream>>>(
+            View(s, nodes.u, nodes.v, t_->beta), partial_.get(), nullptr);
       });
   }
   if (t_->beta != 0) PetscCall(LaunchPressure(launch));
@@ -89,8 +89,9 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
                        element[2] + spring[2],
                        spring[3],
                        spring[4],
-                       node[7],
-                       node[8]};
+                       node[8],
+                       node[9]};
+  observed->load_u = node[7];
   observed->broken_elements = element[3];
   PetscFunctionReturn(PETSC_SUCCESS);
 }

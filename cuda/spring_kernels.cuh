@@ -18,11 +18,10 @@ struct SpringView {
   const std::uint8_t *counted;
 };
 
-/// One spring: writes its force to its slot; commits its history with kCommit. Returns the state it would leave.
-template <class Law, bool kBeta, bool kCommit>
-__device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i, Spring<double> &s,
-                                                     double (&force)[3]) {
-  double param[kMaxParams];
+/// Gathers a spring; returns its state. [in] param: room for the law's numbers.
+template <class Law, bool kBeta>
+__device__ __forceinline__ std::uint8_t GatherSpring(const SpringView &t, int i, Spring<double> &s,
+                                                     double (&param)[kMaxParams]) {
   const long long a = 3ll * t.a[i], b = 3ll * t.b[i];
   WaitForPrevious(t.early);
   std::uint8_t state = 0;
@@ -47,7 +46,14 @@ __device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i,
     for (int k = 0; k < Law::kState; ++k)
       s.history[k] = state ? t.history[static_cast<long long>(k) * t.n_pad + i] : 0.0;
   }
-  const Outcome<double> outcome = SpringForce<Law, kBeta>(s, force);
+  return state;
+}
+
+/// Writes a spring's force to its slot; commits its history with kCommit. Returns the state it would leave.
+template <class Law, bool kCommit>
+__device__ __forceinline__ std::uint8_t FinishSpring(const SpringView &t, int i, const Spring<double> &s,
+                                                     std::uint8_t state, const Outcome<double> &outcome,
+                                                     const double (&force)[3]) {
   std::uint8_t next = 0;
   if constexpr (Law::kHistory) {
     next = NextState(state, StateBits(outcome));
@@ -63,6 +69,16 @@ __device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i,
   return next;
 }
 
+/// One spring: writes its force to its slot; commits its history with kCommit. Returns the state it would leave.
+template <class Law, bool kBeta, bool kCommit>
+__device__ __forceinline__ std::uint8_t SpringThread(const SpringView &t, int i, Spring<double> &s,
+                                                     double (&force)[3]) {
+  double param[kMaxParams];
+  const std::uint8_t state = GatherSpring<Law, kBeta>(t, i, s, param);
+  const Outcome<double> outcome = SpringForce<Law, kBeta>(s, force);
+  return FinishSpring<Law, kCommit>(t, i, s, state, outcome, force);
+}
+
 template <class Law, bool kBeta>
 __global__ void __launch_bounds__(kBlock) SpringKernel(SpringView t) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
@@ -72,14 +88,16 @@ __global__ void __launch_bounds__(kBlock) SpringKernel(SpringView t) {
   SpringThread<Law, kBeta, true>(t, i, s, force);
 }
 
+/// [out] each: energy of every spring [J], or NULL.
 template <class Law, bool kBeta>
-__global__ void __launch_bounds__(kBlock) SpringObserveKernel(SpringView t, double *partial) {
+__global__ void __launch_bounds__(kBlock) SpringObserveKernel(SpringView t, double *partial, double *each) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
   double value[kSpringSums] = {0, 0, 0, 0, 0};
   if (i < t.n) {
     Spring<double> s;
     double force[3];
     const std::uint8_t next = SpringThread<Law, kBeta, false>(t, i, s, force);
+    if (each) each[i] = Law::Energy(s, force);
     if (t.counted[i]) {
       value[0] = Law::Energy(s, force);
       for (int k = 0; k < 3; ++k) value[1] += fabs(force[k]);

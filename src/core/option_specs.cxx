@@ -110,7 +110,7 @@ static std::vector<OptionSpec> &Registry() {
       {"monitor_progress", T::kViewer, "", "", "prints step, time, rate and time left", ""},
       {"monitor_progress_interval", T::kInt, "steps", "20 lines a run", "every so many steps", ""},
       {"monitor_progress_interval_time", T::kReal, "s", "", "every so many seconds of the scene", ""},
-      {"monitor_energy", T::kViewer, "", "", "prints energies and momentum", ""},
+      {"monitor_energy", T::kViewer, "", "", "prints energies and momentum, and keeps the energy balance: losses, works and its error", ""},
       {"monitor_energy_interval", T::kInt, "steps", "100", "every so many steps", ""},
       {"monitor_energy_interval_time", T::kReal, "s", "", "every so many seconds of the scene", ""},
       {"monitor_convergence", T::kViewer, "", "", "prints kinetic energy, unbalanced force ratio, broken springs and the share of broken blocks", ""},

@@ -27,6 +27,11 @@ void AuditSprings(const AuditPass &audit, const SpringTable &t, int i, int index
                   const Spring<Lanes> &s, const Outcome<Lanes> &outcome, const Lanes *history,
                   const std::uint8_t *state, const Lanes force[3]) {
   const std::size_t stride = t.n_pad;
+  if constexpr (kDissipates<Law> && !kBeta) {  // most springs are whole, and stay so
+    bool whole = !Any(outcome.changed);
+    for (int l = 0; l < kLanes; ++l) whole &= state[l] == 0;
+    if (whole) return;
+  }
   Lanes work[kSpringWorks] = {}, step[3] = {}, lawful[3] = {force[0], force[1], force[2]};
   Spring<Lanes> again = s;
   if (kBeta) SpringForce<Law, false>(again, lawful);  // without its viscous part
@@ -39,7 +44,7 @@ void AuditSprings(const AuditPass &audit, const SpringTable &t, int i, int index
       before.tension_lost[l] = state[l] & kTensionLost ? -1 : 0;
       before.any[l] = state[l] ? -1 : 0;
     }
-    may = MayDissipate(before, outcome);
+    may = MayDissipate<Law>(before, outcome);
   }
   if (kBeta || Any(may)) {
     Lanes at[3];

@@ -18,10 +18,13 @@ struct SpringBefore {
   MaskOf<T> open, tension_lost, any;  ///< any: it had a history
 };
 
-/// Springs in which an evaluation can have dissipated anything.
-template <class T>
+/// Springs in which an evaluation can have dissipated anything: not those that stick, nor cracks that stay open. A damaged
+/// spring has another stiffness in tension than in pressure, and may have passed from one to the other.
+template <class Law, class T>
 CDEM_HD MaskOf<T> MayDissipate(const SpringBefore<T> &before, const Outcome<T> &out) {
-  return out.slides | out.changed | before.any;
+  const MaskOf<T> moves = out.slides | (out.open & !before.open) | (before.open & !out.open);
+  if constexpr (!Law::kSoftens) return moves;
+  return moves | ((out.changed | (before.any & !before.tension_lost)) & !(out.open & before.open));
 }
 
 /// Energies [J] of the step that ended with this evaluation. Normal and shear force by themselves: the elastic energy of
@@ -70,7 +73,7 @@ CDEM_HD_CALL void SpringDissipation(Spring<T> s, SpringBefore<T> before, Outcome
   T broken = 0.5 * cohesive * Sqrt(moved2) / s.ks;
   const T noise = 1e-12 * (Sqrt(before2) + rubs_before) * Sqrt(moved2) / s.ks;
   broken = broken > noise ? broken : zero;
-  const MaskOf<T> may = MayDissipate(before, out), pulled = trial > zero;
+  const MaskOf<T> may = MayDissipate<Law>(before, out), pulled = trial > zero;
   work[kFriction] = may ? shear_loss - broken + (pulled ? zero : normal_loss) : zero;
   work[kSpringFracture] = may ? broken + (pulled ? normal_loss : zero) : zero;
   work[kContact] = may ? corner : zero;

@@ -14,6 +14,7 @@ struct BrittleLaw : StrengthLawDefaults {
   static constexpr int kParams = kDilates ? kDilatingParams : kPlainParams;
   static constexpr bool kMayKeepTension = true;
   static constexpr bool kCarriesOffset = kDilates;
+  static constexpr bool kSoftens = false;  ///< damaged springs are softer in tension
 
   /// History: slip s [3], zero while intact; with dilation the opening g that it made, and the length of its path [m].
   enum { kSlip = 0, kGap = 3, kPath = 4 };

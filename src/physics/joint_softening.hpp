@@ -73,6 +73,7 @@ struct SofteningLaw : StrengthLawDefaults {
   }
 
   static constexpr bool kCarriesOffset = kDilates;
+  static constexpr bool kSoftens = true;  ///< damaged springs are softer in tension
   /// The tensile strength shapes the unloading of damaged springs: it stays, and their damage does.
   static void MakeIntact(double *param) {
     param[kFrozen] = 1;

@@ -40,7 +40,7 @@ double SpringMissing(double *dissipated, double *work) {
     double force[3];
     const Outcome<double> out = SpringForce<Law, false>(s, force);
     double loss[kSpringWorks] = {};
-    if (MayDissipate(was, out)) SpringDissipation<Law>(s, was, out, force, step, loss);
+    if (MayDissipate<Law>(was, out)) SpringDissipation<Law>(s, was, out, force, step, loss);
     *dissipated += loss[kFriction] + loss[kSpringFracture] + loss[kContact];
     for (int k = 0; k < 3; ++k) *work -= 0.5 * (before[k] + force[k]) * step[k];
     std::copy_n(force, 3, before);
