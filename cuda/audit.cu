@@ -59,7 +59,7 @@ template <class F>
 void DeviceTables::EachAudited(F &&f) {
   for (Elements &e : elements_) f(e.state), f(e.value), f(e.broken_time), f(e.work);
   for (Springs &s : springs_) f(s.state), f(s.history), f(s.work), f(s.viscous);
-  f(node_work_), f(row_work_);
+  f(node_work_), f(row_work_), f(released_);
 }
 
 /// Energies of every element and spring, as an observation has them.
@@ -117,6 +117,14 @@ PetscErrorCode DeviceTables::Audit(const NodeView &nodes, const StepArgs &args, 
     PetscCall(ierr);
   }
   PetscCall(LaunchPressure(launch));
+  if (t_->releases) {
+    PetscCall(LaunchRelease(launch));
+    for (const Springs &s : springs_)  // what they store after it
+      JointLaws::Visit(s.host->law, [&](auto law) {
+        SpringObserveKernel<decltype(law), false><<<Blocks(s.host->n, kBlock), kBlock, 0, launch.stream>>>(
+            View(s, nodes.u, nodes.v, 0), partial_.get(), s.each.get());
+      });
+  }
   PetscCall(LaunchSprings(nodes, args, launch));
   if (t_->n_owned > 0) {
     auto kernel = VisitNodes(*t_, [](auto has) { return NodeBalanceKernel<decltype(has)>; });

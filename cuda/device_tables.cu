@@ -64,6 +64,7 @@ PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells, boo
   }
   PetscCall(BuildSlotLists());
   PetscCall(CreateAverages());
+  if (tables.releases) PetscCall(CreateRelease());
   if (audit) PetscCall(CreateAudit());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -111,13 +112,14 @@ std::size_t DeviceTables::Bytes() const {
   auto add = [&](const auto &...array) { ((bytes += array.bytes()), ...); };
   add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_,
       load_start_, load_table_, watch_, quiet_, kind_, value_, load_, dashpot_, weight_, last_, partial_, undamped_,
-      node_work_, row_work_, speed_, half_, weight_u_, load_wave_);
+      node_work_, row_work_, speed_, half_, weight_u_, load_wave_, released_);
   add(averages_.start, averages_.entry, averages_.inverse_volume, averages_.dilatation, averages_.pressure,
       averages_.of_dilatation, averages_.of_pressure, averages_.before);
   for (const Elements &e : elements_)
-    add(e.node, e.material, e.layer, e.counted, e.state, e.value, e.broken_time, e.work, e.each);
+    add(e.node, e.material, e.layer, e.cell, e.counted, e.state, e.value, e.broken_time, e.work, e.each);
   for (const Springs &s : springs_)
-    add(s.a, s.b, s.joint, s.normal, s.area, s.kn, s.ks, s.history, s.state, s.counted, s.work, s.viscous, s.each);
+    add(s.a, s.b, s.joint, s.cell, s.normal, s.area, s.kn, s.ks, s.history, s.state, s.counted, s.work, s.viscous,
+        s.each);
   for (const auto &a : kept_.numbers) add(a);
   for (const auto &a : kept_.states) add(a);
   return bytes;
@@ -226,6 +228,7 @@ PetscErrorCode DeviceTables::UploadHistories(const Histories &histories) {
     PetscCall(springs_[g].state.Overwrite(histories.springs[g].state));
     PetscCall(springs_[g].history.Overwrite(histories.springs[g].values));
   }
+  PetscCall(released_.Overwrite(std::vector<std::uint8_t>(released_.size(), 0)));
   const std::vector<double> &last = histories.acceleration;  // empty: the next step is the first one of its damping
   PetscCall(last_.Overwrite(last.empty() ? std::vector<double>(last_.size(), 0.0) : last));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -38,6 +38,7 @@ class DeviceTables {
   struct Elements {
     const ElementTable *host;
     DeviceArray<int> node, material, layer;
+    DeviceArray<int> cell;          ///< where broken elements release their springs
     std::size_t average_start = 0;  ///< first slot among the integrals of all tables that average
     DeviceArray<std::uint8_t> counted, state;
     DeviceArray<double> value, broken_time;
@@ -46,6 +47,7 @@ class DeviceTables {
   struct Springs {
     const SpringTable *host;
     DeviceArray<int> a, b, joint;
+    DeviceArray<int> cell;  ///< [n][2]; where broken elements release their springs
     DeviceArray<double> normal, area, kn, ks, history;
     DeviceArray<std::uint8_t> state, counted;
     DeviceArray<double> work, viscous, each;  ///< of the audit: [kSpringWorks][n_pad], [3][n_pad], energies
@@ -57,12 +59,15 @@ class DeviceTables {
   };
   PetscErrorCode BuildSlotLists();
   PetscErrorCode CreateAverages();
+  PetscErrorCode CreateRelease();
   PetscErrorCode LaunchMeans(int rates, const double *integral, double *mean, const LaunchArgs &launch);
   /// Around the element kernels, in scenes whose elements average: dilatations before them, pressures after them.
   PetscErrorCode LaunchDilatation(const double *u, const double *v, double beta, const LaunchArgs &launch);
   PetscErrorCode LaunchPressure(const LaunchArgs &launch);
   PetscErrorCode LaunchElements(const NodeView &nodes, const StepArgs &args, BatchState *batch,
                                 const LaunchArgs &launch);
+  /// After the elements, in scenes whose broken elements break the springs of their faces.
+  PetscErrorCode LaunchRelease(const LaunchArgs &launch);
   PetscErrorCode LaunchSprings(const NodeView &nodes, const StepArgs &args, const LaunchArgs &launch);
   /// The same with the audit, of a table that can dissipate.
   PetscErrorCode LaunchAudited(const Elements &e, const ElementView &view, const StepArgs &args, bool last,
@@ -91,6 +96,7 @@ class DeviceTables {
   DeviceArray<std::uint8_t> kind_;
   DeviceArray<double> value_, load_, dashpot_;
   DeviceArray<double> weight_, last_;       // of damped nodes
+  DeviceArray<std::uint8_t> released_;      // [n_cells], where they release their springs
   DeviceArray<double> partial_, undamped_;  // only once something is observed
   bool audited_ = false;
   DeviceArray<double> node_work_, row_work_, speed_, half_, weight_u_;  // of the audit; the last two at nodes

@@ -66,32 +66,10 @@ PetscErrorCode DeviceTables::LaunchStep(const NodeView &nodes, const StepArgs &a
                                         const LaunchArgs &launch) {
   PetscFunctionBeginUser;
   PetscCall(Run(events.elements, launch, [&] { return LaunchElements(nodes, args, batch, launch); }));
+  if (t_->releases) PetscCall(LaunchRelease(launch));
   if (!springs_.empty()) PetscCall(Run(events.springs, launch, [&] { return LaunchSprings(nodes, args, launch); }));
   if (t_->n_owned == 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(Run(events.nodes, launch, [&] { return LaunchNodes(nodes, args, batch, launch); }));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode DeviceTables::LaunchNodes(const NodeView &nodes, const StepArgs &args, BatchState *batch,
-                                         const LaunchArgs &launch) {
-  PetscFunctionBeginUser;
-  const int blocks = Blocks(t_->n_owned, kNodeBlock);
-  const double *mass = mass_.get();
-  if (audited_) {
-    // what the coming step needs of this one, before the nodes move
-    const int speeds = static_cast<int>(speed_.size()), means = static_cast<int>(averages_.before.size());
-    if (speeds > 0)
-      PetscCall(Launch(CopyKernel, Blocks(speeds, kBlock), kBlock, launch, speeds, launch.overlap,
-                       static_cast<const double *>(nodes.v), speed_.get()));
-    if (means > 0)
-      PetscCall(Launch(CopyKernel, Blocks(means, kBlock), kBlock, launch, means, launch.overlap,
-                       static_cast<const double *>(averages_.dilatation.get()), averages_.before.get()));
-    auto kernel = VisitNodes(*t_, [](auto has) { return AuditedNodeKernel<decltype(has)>; });
-    PetscCall(Launch(kernel, blocks, kNodeBlock, launch, nodes, args, Lists(launch.overlap), batch, mass, Works()));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  auto kernel = VisitNodes(*t_, [](auto has) { return NodeKernel<decltype(has)>; });
-  PetscCall(Launch(kernel, blocks, kNodeBlock, launch, nodes, args, Lists(launch.overlap), batch));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

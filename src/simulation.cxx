@@ -129,11 +129,6 @@ PetscErrorCode Simulation::ChooseDevice() {
   if (device_ == "auto") cuda = CudaDeviceThere();
   CdemCheck(!cuda || CudaDeviceThere(), comm_,
             "-device cuda: this machine shows no usable NVIDIA GPU; use -device cpu");
-  bool releases = false;
-  for (const Scene &scene : scenes_)
-    for (const Material &m : scene.materials) releases = releases || m.releases;
-  CdemCheck(!cuda || !releases, comm_,
-            "-block_<region>_release_interfaces is computed on the CPU only so far: use -device cpu, or leave it out");
   if (cuda) PetscCall(options_.Int("elements_per_block", &per_block_));
   CdemCheck(per_block_ >= 32 && per_block_ <= 256 && per_block_ % 32 == 0, comm_,
             "-elements_per_block is %lld; it must be a multiple of 32 from 32 to 256",

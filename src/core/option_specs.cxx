@@ -26,7 +26,7 @@ static std::vector<OptionSpec> &Registry() {
 
       {"block_<region>_stress", T::kTensor, "Pa", "0", "stress that is there from the start, at z = 0; tension is positive. Interfaces carry it too", ""},
       {"block_<region>_stress_gradient_z", T::kTensor, "Pa/m", "0", "what it has more per metre of z", ""},
-      {"block_<region>_release_interfaces", T::kFlag, "", "false", "law breakage: an element that breaks breaks the interfaces on its faces too (on the CPU so far)", ""},
+      {"block_<region>_release_interfaces", T::kFlag, "", "false", "law breakage: an element that breaks breaks the interfaces on its faces too", ""},
       {"block_<region>_scatter_volume", T::kReal, "m^3", "none", "volume V0 for which the Weibull means hold: an element of volume V has (V0/V)^(1/m) times them", ""},
 
       {"joints", T::kNames, "", "", "declares the joint sets; each needs an interface with `on joints:J`", ""},

@@ -1,7 +1,6 @@
 #include "core/events.hpp"
 #include "forces/backend.hpp"
 #include "forces/host_audit.hpp"
-#include "forces/node_audit.hpp"
 #include "forces/observe.hpp"
 #include "forces/release.hpp"
 
@@ -131,9 +130,6 @@ class HostBackend final : public Backend {
     *failure = Failure();
     NodeView view = HostView(t_, u_.data(), v_.data(), batch.schedule, batch.history);
     if (t_.combined) view.last = history_.acceleration.data();
-    const auto nodes = VisitNodes(t_, [&](auto has) {
-      return audit_.Empty() ? &HostBackend::Nodes<decltype(has), false> : &HostBackend::Nodes<decltype(has), true>;
-    });
     for (int step = 0; step < batch.n; ++step) {
       const StepArgs &args = step == 0 ? batch.first : batch.rest;
       const AuditPass followed{&audit_, args.dt_old, args.dt, false}, *audit = audit_.Empty() ? nullptr : &followed;
@@ -153,7 +149,8 @@ class HostBackend final : public Backend {
         }));
       PetscCall(Timed(events.nodes, &nodes_, [&] {
         if (!audit_.speed.empty()) audit_.speed = v_;
-        const int bad = (this->*nodes)(view, args, step);
+        if (audit) HostNodesWork(t_, view, args, step, f_.data(), &audit_);
+        const int bad = HostNodes(t_, view, args, step, f_.data());
         if (bad >= 0 && failure->step < 0) *failure = Failure{step, bad};
         return PETSC_SUCCESS;
       }));
@@ -228,18 +225,6 @@ class HostBackend final : public Backend {
       PetscCall(VecRestoreArray(vec, &values));
     }
     PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  template <class Has, bool kAudit>
-  int Nodes(const NodeView &view, const StepArgs &args, int step) {
-    int bad = -1;
-    NodeWorks works;
-    if (kAudit) works = {audit_.node.data(), audit_.row.data(), t_.records.n};
-    for (int i = 0; i < t_.n_owned; ++i) {
-      const double *f = &f_[3 * static_cast<std::size_t>(i)];
-      if (kAudit) AuditNode<Has::kRecords, Has::kQuiet, Has::kDamped>(view, args, i, step, t_.mass[i], f, false, works);
-      if (!NodeStep<Has::kRecords, Has::kQuiet, Has::kDamped>(view, args, i, step, f) && bad < 0) bad = i;
-    }
-    return bad;
   }
   PetscErrorCode Halo() {
     PetscFunctionBeginUser;

@@ -68,4 +68,11 @@ NodeView HostView(const Tables &t, double *u, double *v, const double *schedule,
 std::vector<SpringHistory> StartSprings(const Tables &tables);
 std::vector<ElementHistories> StartElements(const Tables &tables);
 
+/// Moves the nodes by a step. [in] step: of the batch; f: [n_local][3] internal forces [N]. Returns the first node whose
+/// velocity is no reasonable number, or -1.
+int HostNodes(const Tables &tables, const NodeView &nodes, const StepArgs &args, int step, const double *f);
+/// What that step of the nodes does, to be called before it. [in,out] audit: adds to its works at nodes.
+void HostNodesWork(const Tables &tables, const NodeView &nodes, const StepArgs &args, int step, const double *f,
+                   AuditArrays *audit);
+
 }  // namespace cdem

@@ -21,6 +21,7 @@ std::vector<std::string> AuditScenes() {
       for (const char *shape : {"hex", "tet", "wedge"}) scenes.push_back(FailingScene(shape, law) + damping);
     scenes.push_back(FailingScene("tet", "mohr_coulomb") + " -block_element bbar" + damping);
     for (const char *law : kBreakingLaws) scenes.push_back(BreakingScene("hex", law) + damping);
+    scenes.push_back(ReleasingScene("hex") + damping);
   }
   scenes.push_back(FailingScene("hex", "drucker_prager") + " -damping_local 0.2");
   scenes.push_back(QuietScene("hex"));

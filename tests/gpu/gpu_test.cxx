@@ -167,6 +167,15 @@ TEST(CpuGpu, FailingBlocks) {
       }
 }
 
+TEST(CpuGpu, BrokenBlocksReleaseTheirInterfaces) {
+  for (const char *shape : {"hex", "tet", "wedge"}) {
+    const std::string scene = ReleasingScene(shape) + " -ts_max_steps 800";
+    SCOPED_TRACE(scene);
+    CompareBreaking(scene);
+    EXPECT_GT(RunScene(scene + " -device cuda").observed.broken_elements, 0);
+  }
+}
+
 TEST(CpuGpu, BlocksUpToTheirStrength) {
   for (const char *law : kFailingLaws) {
     const std::string scene =
@@ -198,6 +207,7 @@ TEST(GpuRanks, DoNotMatter) {
   for (const char *law : kFailingLaws)
     ExpectRanksDoNotMatter(FailingScene("hex", law) + " -ts_max_steps 1000 -device cuda");
   for (const std::string &scene : FormScenes()) ExpectRanksDoNotMatter(scene + " -ts_max_steps 500 -device cuda");
+  ExpectRanksDoNotMatter(ReleasingScene("hex") + " -ts_max_steps 800 -device cuda");
   ExpectRanksDoNotMatter(QuietScene("hex", "-ts_max_steps 500 -device cuda"));
 }
 

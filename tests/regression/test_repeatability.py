@@ -129,9 +129,9 @@ def test_batches(name, batch, reference, tmp_path):
     assert_equal(content, result(tmp_path / "batch", {**options, "ts_central_batch": batch})[0], f"batches of {batch}")
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_observers_leave_the_run_alone(ranks, reference, tmp_path):
-    options, content = reference("torn hex")
+@pytest.mark.parametrize("name,ranks", [(name, 1) for name in SCENES] + [("torn hex", 2), ("quiet tet", 2)])
+def test_observers_leave_the_run_alone(name, ranks, reference, tmp_path):
+    options, content = reference(name)
     watched = {**options, "monitor_energy": "ascii:energy.txt", "monitor_energy_interval": 3,
                "monitor_convergence": "ascii:convergence.txt", "monitor_convergence_interval": 5}
     assert_equal(content, result(tmp_path / "watched", watched, ranks=ranks)[0], "a watched run")

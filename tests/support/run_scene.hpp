@@ -170,6 +170,14 @@ inline std::string StruckScene(const std::string &shape, const std::string &bloc
          "-boundary_zmax_table pulse -tables pulse -table_pulse_type sine -table_pulse_frequency 40 " +
          block;
 }
+
+/// Blocks that break, and with them the interfaces of their faces, which are stronger than they are.
+inline std::string ReleasingScene(const std::string &shape) {
+  return FailingScene(shape, "breakage") +
+         " -interfaces j -interface_j_on all -interface_j_law brittle -interface_j_tension 1e8 "
+         "-interface_j_cohesion 1e9 -interface_j_friction 30 -block_release_interfaces";
+}
+
 /// Every element form of hexahedra, wedges and tetrahedra but `full`, with and without damping by stiffness.
 inline std::vector<std::string> FormScenes() {
   std::vector<std::string> scenes;

@@ -18,6 +18,7 @@ TEST(Balance, ClosesInEveryScene) {
     for (const char *law : kBreakingLaws) scenes.push_back(BreakingScene("hex", law) + damping);
   }
   scenes.push_back(QuietScene("hex", "-damping_beta 2e-5"));
+  scenes.push_back(ReleasingScene("hex"));
   for (const std::string &scene : scenes) {
     SCOPED_TRACE(scene);
     const AuditRun run(scene + " -ts_max_steps 600 -device cpu");
@@ -68,6 +69,11 @@ TEST(Balance, TheRunIsTheSameWithoutIt) {
     scenes.push_back(FailingScene("wedge", "mohr_coulomb") + " -block_element bbar" + beta);
     scenes.push_back(FailingScene("hex", "breakage") + " -block_element onepoint" + beta);
     for (const char *law : kBreakingLaws) scenes.push_back(BreakingScene("tet", law) + beta);
+    scenes.push_back(ReleasingScene("hex") + beta);
+    for (const char *nodes : {" -damping_alpha 10", " -damping_alpha 3 -damping_local 0.2"}) {
+      scenes.push_back(BreakingScene("hex", "brittle") + beta + nodes);
+      scenes.push_back(QuietScene("hex") + beta + nodes);
+    }
   }
   for (const std::string &scene : scenes) {
     SCOPED_TRACE(scene);
