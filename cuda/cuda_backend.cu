@@ -1,9 +1,6 @@
-// The GPU backend: the reference way, captured in CUDA graphs on one rank, with a halo exchange a step on several; or the
-// rows, in scenes that have them.
 #include "core/error.hpp"
 #include "core/events.hpp"
-#include "cuda/rows_way.cuh"
-#include "cuda/step_graph.cuh"
+#include "cuda/cuda_backend.cuh"
 
 #include <petscdevice_cuda.h>
 
@@ -18,287 +15,207 @@ bool CudaDeviceThere() {
   return there;
 }
 
-namespace {
-
 /// Element corners and springs up to which kernels overlap: 40,000 hexahedra gain 1 %, 1,000 gain 20 %, 1,000,000 would
 /// lose 4 % (H200).
-constexpr std::size_t kOverlapSlots = 1000000;
+static constexpr std::size_t kOverlapSlots = 1000000;
 
-class CudaBackend final : public Backend {
- public:
-  CudaBackend(const Tables &tables, int block) : t_(tables) { launch_.block = block; }
-  ~CudaBackend() override {
-    graphs_.Drop();
-    if (launch_.stream && !t_.halo) cudaStreamDestroy(launch_.stream);
-    if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
+CudaBackend::~CudaBackend() {
+  graphs_.Drop();
+  if (launch_.stream && !t_.halo) cudaStreamDestroy(launch_.stream);
+  if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
+}
+
+PetscErrorCode CudaBackend::Create(int n_owned_cells, bool audit, const std::string &way) {
+  PetscFunctionBeginUser;
+  PetscDeviceContext context;
+  PetscCall(PetscDeviceInitialize(PETSC_DEVICE_CUDA));       // PETSc chooses the device of this rank
+  PetscCall(PetscDeviceContextGetCurrentContext(&context));  // which settles PETSc's stream
+  PetscCall(tables_.Create(t_, n_owned_cells, audit));
+  PetscCall(u_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
+  PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
+  PetscCall(batch_.Allocate(1));
+  PetscCall(state_.Allocate());
+  // One rank: a stream of our own, which can be captured. Several: PETSc's, on which PetscSF packs and unpacks.
+  if (t_.halo)
+    launch_.stream = PetscDefaultCudaStream;
+  else
+    CdemCuda(cudaStreamCreateWithFlags(&launch_.stream, cudaStreamNonBlocking));
+  // -log_view_gpu_time asks for the time of every event: then each phase is waited for, and there are no graphs.
+  PetscBool timed = PETSC_FALSE;
+  PetscCall(PetscOptionsHasName(nullptr, nullptr, "-log_view_gpu_time", &timed));
+  launch_.timed = timed;
+  launch_.overlap = !t_.halo && !timed && t_.n_slots < kOverlapSlots;
+  PetscCall(ChooseWay(way));
+  LaunchArgs load = launch_;
+  load.load = true;
+  PetscCall(tables_.LaunchStep(View(), {}, batch_.get(), load));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+std::string CudaBackend::Name() const {
+  int device = 0;
+  cudaDeviceProp properties;
+  cudaGetDevice(&device);
+  cudaGetDeviceProperties(&properties, device);
+  return properties.name;
+}
+std::size_t CudaBackend::Bytes() const {
+  return (rows_ ? rows_->Bytes() : 0) + tables_.Bytes() + u_.bytes() + v_.bytes() + schedule_.bytes() +
+         history_.bytes();
+}
+
+PetscErrorCode CudaBackend::CreateVecs(Vec *u, Vec *v) {
+  PetscFunctionBeginUser;
+  const PetscInt n = 3 * static_cast<PetscInt>(t_.n_owned);
+  PetscCall(VecCreateMPICUDAWithArrays(t_.comm, 3, n, PETSC_DECIDE, nullptr, u_.get(), u));
+  PetscCall(VecCreateMPICUDAWithArrays(t_.comm, 3, n, PETSC_DECIDE, nullptr, v_.get(), v));
+  vec_u_ = *u, vec_v_ = *v;
+  if (t_.halo) {
+    PetscCallMPI(MPI_Type_contiguous(3, MPIU_REAL, &unit_));
+    PetscCallMPI(MPI_Type_commit(&unit_));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-  PetscErrorCode Create(int n_owned_cells, bool audit, const std::string &way) {
-    PetscFunctionBeginUser;
-    PetscDeviceContext context;
-    PetscCall(PetscDeviceInitialize(PETSC_DEVICE_CUDA));       // PETSc chooses the device of this rank
-    PetscCall(PetscDeviceContextGetCurrentContext(&context));  // which settles PETSc's stream
-    PetscCall(tables_.Create(t_, n_owned_cells, audit));
-    PetscCall(u_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
-    PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
-    PetscCall(batch_.Allocate(1));
-    PetscCall(state_.Allocate());
-    // One rank: a stream of our own, which can be captured. Several: PETSc's, on which PetscSF packs and unpacks.
-    if (t_.halo)
-      launch_.stream = PetscDefaultCudaStream;
+PetscErrorCode CudaBackend::Advance(const Batch &batch, Failure *failure) {
+  PetscFunctionBeginUser;
+  PetscScalar *u, *v;
+  PetscCall(VecCUDAGetArray(vec_u_, &u));  // PETSc must know that the device copies change
+  PetscCall(VecCUDAGetArray(vec_v_, &v));
+  CdemCuda(cudaDeviceSynchronize());  // what PETSc did to the Vecs is done before our stream reads them
+  PetscCall(Prepare(batch));
+  const NodeView nodes = View();
+  int done = 0;
+  if (t_.halo || launch_.timed) {
+    for (; done < batch.n; ++done) {
+      PetscCall(Halo());
+      PetscCall(tables_.LaunchStep(nodes, done == 0 ? batch.first : batch.rest, batch_.get(), launch_));
+    }
+  } else {
+    if (!(batch.first == batch.rest)) {
+      PetscCall(tables_.LaunchStep(nodes, batch.first, batch_.get(), launch_));
+      ++done;
+    }
+    if (rows_)
+      PetscCall(rows_->Run(nodes, batch.rest, batch_.get(), done, batch.n - done, launch_.stream));
     else
-      CdemCuda(cudaStreamCreateWithFlags(&launch_.stream, cudaStreamNonBlocking));
-    // -log_view_gpu_time asks for the time of every event: then each phase is waited for, and there are no graphs.
-    PetscBool timed = PETSC_FALSE;
-    PetscCall(PetscOptionsHasName(nullptr, nullptr, "-log_view_gpu_time", &timed));
-    launch_.timed = timed;
-    launch_.overlap = !t_.halo && !timed && t_.n_slots < kOverlapSlots;
-    PetscCall(ChooseWay(way));
-    LaunchArgs load = launch_;
-    load.load = true;
-    PetscCall(tables_.LaunchStep(View(), {}, batch_.get(), load));
-    PetscFunctionReturn(PETSC_SUCCESS);
+      PetscCall(graphs_.Run(&tables_, nodes, batch.rest, batch_.get(), launch_, batch.n - done));
   }
+  CdemCuda(cudaMemcpyAsync(state_.get(), batch_.get(), sizeof(BatchState), cudaMemcpyDeviceToHost, launch_.stream));
+  if (t_.n_watch > 0)
+    CdemCuda(cudaMemcpyAsync(batch.history, history_.get(),
+                             6 * sizeof(double) * t_.n_watch * static_cast<std::size_t>(batch.n),
+                             cudaMemcpyDeviceToHost, launch_.stream));
+  CdemCuda(cudaStreamSynchronize(launch_.stream));
+  PetscCall(VecCUDARestoreArray(vec_u_, &u));
+  PetscCall(VecCUDARestoreArray(vec_v_, &v));
+  const unsigned long long failed = state_.get()->failure;
+  if (failed != ~0ull) *failure = Failure{static_cast<int>(failed >> 32), static_cast<int>(failed & 0xffffffffu)};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-  std::string Name() const override {
-    int device = 0;
-    cudaDeviceProp properties;
-    cudaGetDevice(&device);
-    cudaGetDeviceProperties(&properties, device);
-    return properties.name;
+PetscErrorCode CudaBackend::Download(const double **u, const double **v, const Histories **history) {
+  PetscFunctionBeginUser;
+  const PetscScalar *array;
+  for (Vec vec : {vec_u_, vec_v_}) {  // a Vec that the host changed last is brought to the device first
+    PetscCall(VecCUDAGetArrayRead(vec, &array));
+    PetscCall(VecCUDARestoreArrayRead(vec, &array));
   }
-  Way WayOfStep() const override { return way_; }
-  std::size_t Bytes() const override {
-    return (rows_ ? rows_->Bytes() : 0) + tables_.Bytes() + u_.bytes() + v_.bytes() + schedule_.bytes() +
-           history_.bytes();
-  }
+  PetscCall(Halo());
+  CdemCuda(cudaDeviceSynchronize());
+  PetscCall(u_.Download(&host_u_));
+  PetscCall(v_.Download(&host_v_));
+  PetscCall(tables_.DownloadHistories(&host_history_));
+  *u = host_u_.data();
+  *v = host_v_.data();
+  *history = &host_history_;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-  PetscErrorCode CreateVecs(Vec *u, Vec *v) override {
-    PetscFunctionBeginUser;
-    const PetscInt n = 3 * static_cast<PetscInt>(t_.n_owned);
-    PetscCall(VecCreateMPICUDAWithArrays(t_.comm, 3, n, PETSC_DECIDE, nullptr, u_.get(), u));
-    PetscCall(VecCreateMPICUDAWithArrays(t_.comm, 3, n, PETSC_DECIDE, nullptr, v_.get(), v));
-    vec_u_ = *u, vec_v_ = *v;
-    if (t_.halo) {
-      PetscCallMPI(MPI_Type_contiguous(3, MPIU_REAL, &unit_));
-      PetscCallMPI(MPI_Type_commit(&unit_));
-    }
-    PetscFunctionReturn(PETSC_SUCCESS);
+PetscErrorCode CudaBackend::Upload(const double *u, const double *v, const Histories &history) {
+  PetscFunctionBeginUser;
+  const std::size_t bytes = 3 * sizeof(double) * t_.n_owned;
+  PetscScalar *array;
+  for (auto [vec, from] : {std::pair<Vec, const double *>{vec_u_, u}, {vec_v_, v}}) {
+    PetscCall(VecCUDAGetArrayWrite(vec, &array));
+    CdemCuda(cudaMemcpy(array, from, bytes, cudaMemcpyHostToDevice));
+    PetscCall(VecCUDARestoreArrayWrite(vec, &array));
   }
+  PetscCall(tables_.UploadHistories(history));
+  CdemCuda(cudaDeviceSynchronize());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-  PetscErrorCode Advance(const Batch &batch, Failure *failure) override {
-    PetscFunctionBeginUser;
-    PetscScalar *u, *v;
-    PetscCall(VecCUDAGetArray(vec_u_, &u));  // PETSc must know that the device copies change
-    PetscCall(VecCUDAGetArray(vec_v_, &v));
-    CdemCuda(cudaDeviceSynchronize());  // what PETSc did to the Vecs is done before our stream reads them
-    PetscCall(Prepare(batch));
-    const NodeView nodes = View();
-    int done = 0;
-    if (t_.halo || launch_.timed) {
-      for (; done < batch.n; ++done) {
-        PetscCall(Halo());
-        PetscCall(tables_.LaunchStep(nodes, done == 0 ? batch.first : batch.rest, batch_.get(), launch_));
-      }
-    } else {
-      if (!(batch.first == batch.rest)) {
-        PetscCall(tables_.LaunchStep(nodes, batch.first, batch_.get(), launch_));
-        ++done;
-      }
-      if (rows_)
-        PetscCall(rows_->Run(nodes, batch.rest, batch_.get(), done, batch.n - done, launch_.stream));
-      else
-        PetscCall(graphs_.Run(&tables_, nodes, batch.rest, batch_.get(), launch_, batch.n - done));
-    }
-    CdemCuda(cudaMemcpyAsync(state_.get(), batch_.get(), sizeof(BatchState), cudaMemcpyDeviceToHost, launch_.stream));
-    if (t_.n_watch > 0)
-      CdemCuda(cudaMemcpyAsync(batch.history, history_.get(),
-                               6 * sizeof(double) * t_.n_watch * static_cast<std::size_t>(batch.n),
-                               cudaMemcpyDeviceToHost, launch_.stream));
-    CdemCuda(cudaStreamSynchronize(launch_.stream));
-    PetscCall(VecCUDARestoreArray(vec_u_, &u));
-    PetscCall(VecCUDARestoreArray(vec_v_, &v));
-    const unsigned long long failed = state_.get()->failure;
-    if (failed != ~0ull) *failure = Failure{static_cast<int>(failed >> 32), static_cast<int>(failed & 0xffffffffu)};
-    PetscFunctionReturn(PETSC_SUCCESS);
+PetscErrorCode CudaBackend::Synchronize() {
+  PetscFunctionBeginUser;
+  CdemCuda(cudaDeviceSynchronize());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// The rows where a scene can go that way: they are the faster one wherever they fit.
+PetscErrorCode CudaBackend::ChooseWay(const std::string &way) {
+  PetscFunctionBeginUser;
+  if (way == "reference") PetscFunctionReturn(PETSC_SUCCESS);
+  auto rows = std::make_unique<RowsWay>();
+  std::string why = launch_.timed       ? "-log_view_gpu_time"
+                    : tables_.audited() ? "the energy balance is kept (-monitor_energy)"
+                                        : "";
+  if (why.empty()) PetscCall(rows->Create(t_, &why));
+  CdemCheck(way == "auto" || why.empty(), t_.comm, "-central_way rows: this scene cannot go that way: %s", why.c_str());
+  if (why.empty()) {
+    way_ = {"rows", "assembled rows in the registers of " + std::to_string(rows->n_blocks()) +
+                        (rows->n_blocks() == 1 ? " thread block" : " thread blocks, one cluster")};
+    rows_ = std::move(rows);
+  } else {
+    way_.text += " (not rows: " + why + ")";
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-  PetscErrorCode Observe(const StepArgs &next, const double *schedule, Observed *observed) override {
-    PetscFunctionBeginUser;
-    const PetscScalar *u, *v;
-    PetscCall(VecCUDAGetArrayRead(vec_u_, &u));
-    PetscCall(VecCUDAGetArrayRead(vec_v_, &v));
-    PetscCall(Reserve(1));
-    if (schedule_.size() > 0)
-      CdemCuda(cudaMemcpy(schedule_.get(), schedule, 3 * sizeof(double) * t_.n_tables, cudaMemcpyHostToDevice));
-    PetscCall(Halo());
-    CdemCuda(cudaDeviceSynchronize());
-    PetscCall(tables_.Observe(View(), next, launch_.stream, observed));
-    PetscCall(VecCUDARestoreArrayRead(vec_u_, &u));
-    PetscCall(VecCUDARestoreArrayRead(vec_v_, &v));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  PetscErrorCode Download(const double **u, const double **v, const Histories **history) override {
-    PetscFunctionBeginUser;
-    const PetscScalar *array;
-    for (Vec vec : {vec_u_, vec_v_}) {  // a Vec that the host changed last is brought to the device first
-      PetscCall(VecCUDAGetArrayRead(vec, &array));
-      PetscCall(VecCUDARestoreArrayRead(vec, &array));
-    }
-    PetscCall(Halo());
-    CdemCuda(cudaDeviceSynchronize());
-    PetscCall(u_.Download(&host_u_));
-    PetscCall(v_.Download(&host_v_));
-    PetscCall(tables_.DownloadHistories(&host_history_));
-    *u = host_u_.data();
-    *v = host_v_.data();
-    *history = &host_history_;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  PetscErrorCode Upload(const double *u, const double *v, const Histories &history) override {
-    PetscFunctionBeginUser;
-    const std::size_t bytes = 3 * sizeof(double) * t_.n_owned;
-    PetscScalar *array;
-    for (auto [vec, from] : {std::pair<Vec, const double *>{vec_u_, u}, {vec_v_, v}}) {
-      PetscCall(VecCUDAGetArrayWrite(vec, &array));
-      CdemCuda(cudaMemcpy(array, from, bytes, cudaMemcpyHostToDevice));
-      PetscCall(VecCUDARestoreArrayWrite(vec, &array));
-    }
-    PetscCall(tables_.UploadHistories(history));
-    CdemCuda(cudaDeviceSynchronize());
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  PetscErrorCode Audit(const StepArgs &next, const double *schedule, AuditSums *sums) override {
-    PetscFunctionBeginUser;
-    const PetscScalar *u, *v;
-    PetscCheck(tables_.audited(), PETSC_COMM_SELF, PETSC_ERR_ORDER, "the energy audit is off");
-    PetscCall(VecCUDAGetArrayRead(vec_u_, &u));
-    PetscCall(VecCUDAGetArrayRead(vec_v_, &v));
-    PetscCall(Reserve(1));
-    if (schedule_.size() > 0)
-      CdemCuda(cudaMemcpy(schedule_.get(), schedule, 3 * sizeof(double) * t_.n_tables, cudaMemcpyHostToDevice));
+/// Room for the schedule and the history of n steps; only in scenes that have them.
+PetscErrorCode CudaBackend::Reserve(int n) {
+  PetscFunctionBeginUser;
+  const std::size_t schedule = t_.records.n > 0 ? 3 * static_cast<std::size_t>(t_.n_tables) * n : 0;
+  const std::size_t history = 6 * static_cast<std::size_t>(t_.n_watch) * n;
+  if (schedule > schedule_.size() || history > history_.size()) {
+    graphs_.Drop();  // they hold the old addresses
+    PetscCall(schedule_.Allocate(schedule));
     scheduled_ = 0;
-    *state_.get() = BatchState{0, 0, ~0ull, 0, 0, 0};
-    CdemCuda(cudaMemcpy(batch_.get(), state_.get(), sizeof(BatchState), cudaMemcpyHostToDevice));
-    PetscCall(Halo());
-    CdemCuda(cudaDeviceSynchronize());
-    LaunchArgs plain = launch_;
-    plain.overlap = plain.timed = false;
-    PetscCall(tables_.Audit(View(), next, batch_.get(), plain, sums));
-    PetscCall(VecCUDARestoreArrayRead(vec_u_, &u));
-    PetscCall(VecCUDARestoreArrayRead(vec_v_, &v));
-    PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(history_.Allocate(history));
   }
-  PetscErrorCode DownloadAudit(const AuditArrays **arrays) override {
-    PetscFunctionBeginUser;
-    CdemCuda(cudaDeviceSynchronize());
-    PetscCall(tables_.DownloadAudit(&host_audit_));
-    *arrays = &host_audit_;
-    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/// Brings schedule and batch state to the device, without waiting for either.
+PetscErrorCode CudaBackend::Prepare(const Batch &batch) {
+  PetscFunctionBeginUser;
+  PetscCall(Reserve(batch.n));
+  const std::size_t schedule = 3 * static_cast<std::size_t>(t_.n_tables) * batch.n;
+  const bool constant = t_.n_tables == 1;  // table 0 is 1 at all times
+  if (batch.schedule && schedule_.size() > 0 && !(constant && scheduled_ >= schedule)) {
+    CdemCuda(cudaMemcpyAsync(schedule_.get(), batch.schedule, sizeof(double) * schedule, cudaMemcpyHostToDevice,
+                             launch_.stream));
+    scheduled_ = schedule;
   }
-  PetscErrorCode UploadAudit(const AuditArrays &arrays) override {
-    PetscFunctionBeginUser;
-    PetscCall(tables_.UploadAudit(arrays));
-    CdemCuda(cudaDeviceSynchronize());
-    PetscFunctionReturn(PETSC_SUCCESS);
+  *state_.get() = BatchState{0, -1, ~0ull, batch.base, batch.rest.dt, batch.offset};
+  CdemCuda(cudaMemcpyAsync(batch_.get(), state_.get(), sizeof(BatchState), cudaMemcpyHostToDevice, launch_.stream));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CudaBackend::Halo() {
+  PetscFunctionBeginUser;
+  if (!t_.halo) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscLogEventBegin(events.halo, nullptr, nullptr, nullptr, nullptr));
+  for (const DeviceArray<double> *field : {&u_, &v_}) {
+    if (field == &v_ && t_.beta == 0 && !tables_.audited()) break;
+    double *ghosts = field->get() + 3 * static_cast<std::size_t>(t_.n_owned);
+    PetscCall(PetscSFBcastWithMemTypeBegin(t_.halo, unit_, PETSC_MEMTYPE_CUDA, field->get(), PETSC_MEMTYPE_CUDA, ghosts,
+                                           MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(t_.halo, unit_, field->get(), ghosts, MPI_REPLACE));
   }
-
-  PetscErrorCode Synchronize() override {
-    PetscFunctionBeginUser;
-    CdemCuda(cudaDeviceSynchronize());
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
- private:
-  /// The rows where a scene can go that way: they are the faster one wherever they fit.
-  PetscErrorCode ChooseWay(const std::string &way) {
-    PetscFunctionBeginUser;
-    if (way == "reference") PetscFunctionReturn(PETSC_SUCCESS);
-    auto rows = std::make_unique<RowsWay>();
-    std::string why = launch_.timed       ? "-log_view_gpu_time"
-                      : tables_.audited() ? "the energy balance is kept (-monitor_energy)"
-                                          : "";
-    if (why.empty()) PetscCall(rows->Create(t_, &why));
-    CdemCheck(way == "auto" || why.empty(), t_.comm, "-central_way rows: this scene cannot go that way: %s",
-              why.c_str());
-    if (why.empty()) {
-      way_ = {"rows", "assembled rows in the registers of " + std::to_string(rows->n_blocks()) +
-                          (rows->n_blocks() == 1 ? " thread block" : " thread blocks, one cluster")};
-      rows_ = std::move(rows);
-    } else {
-      way_.text += " (not rows: " + why + ")";
-    }
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  NodeView View() const { return tables_.Nodes(u_.get(), v_.get(), schedule_.get(), history_.get()); }
-
-  /// Room for the schedule and the history of n steps; only in scenes that have them.
-  PetscErrorCode Reserve(int n) {
-    PetscFunctionBeginUser;
-    const std::size_t schedule = t_.records.n > 0 ? 3 * static_cast<std::size_t>(t_.n_tables) * n : 0;
-    const std::size_t history = 6 * static_cast<std::size_t>(t_.n_watch) * n;
-    if (schedule > schedule_.size() || history > history_.size()) {
-      graphs_.Drop();  // they hold the old addresses
-      PetscCall(schedule_.Allocate(schedule));
-      scheduled_ = 0;
-      PetscCall(history_.Allocate(history));
-    }
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  /// Brings schedule and batch state to the device, without waiting for either.
-  PetscErrorCode Prepare(const Batch &batch) {
-    PetscFunctionBeginUser;
-    PetscCall(Reserve(batch.n));
-    const std::size_t schedule = 3 * static_cast<std::size_t>(t_.n_tables) * batch.n;
-    const bool constant = t_.n_tables == 1;  // table 0 is 1 at all times
-    if (batch.schedule && schedule_.size() > 0 && !(constant && scheduled_ >= schedule)) {
-      CdemCuda(cudaMemcpyAsync(schedule_.get(), batch.schedule, sizeof(double) * schedule, cudaMemcpyHostToDevice,
-                               launch_.stream));
-      scheduled_ = schedule;
-    }
-    *state_.get() = BatchState{0, -1, ~0ull, batch.base, batch.rest.dt, batch.offset};
-    CdemCuda(cudaMemcpyAsync(batch_.get(), state_.get(), sizeof(BatchState), cudaMemcpyHostToDevice, launch_.stream));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  PetscErrorCode Halo() {
-    PetscFunctionBeginUser;
-    if (!t_.halo) PetscFunctionReturn(PETSC_SUCCESS);
-    PetscCall(PetscLogEventBegin(events.halo, nullptr, nullptr, nullptr, nullptr));
-    for (const DeviceArray<double> *field : {&u_, &v_}) {
-      if (field == &v_ && t_.beta == 0 && !tables_.audited()) break;
-      double *ghosts = field->get() + 3 * static_cast<std::size_t>(t_.n_owned);
-      PetscCall(PetscSFBcastWithMemTypeBegin(t_.halo, unit_, PETSC_MEMTYPE_CUDA, field->get(), PETSC_MEMTYPE_CUDA,
-                                             ghosts, MPI_REPLACE));
-      PetscCall(PetscSFBcastEnd(t_.halo, unit_, field->get(), ghosts, MPI_REPLACE));
-    }
-    PetscCall(PetscLogEventEnd(events.halo, nullptr, nullptr, nullptr, nullptr));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-
-  const Tables &t_;
-  LaunchArgs launch_;
-  DeviceTables tables_;
-  DeviceArray<double> u_, v_, schedule_, history_;
-  DeviceArray<BatchState> batch_;
-  PinnedValue<BatchState> state_;          // the host side of batch_
-  std::size_t scheduled_ = 0;              // doubles of schedule_ that are filled
-  Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
-  StepGraphs graphs_;
-  std::unique_ptr<RowsWay> rows_;  // where the scene goes that way
-  Way way_;
-  MPI_Datatype unit_ = MPI_DATATYPE_NULL;
-  std::vector<double> host_u_, host_v_;
-  Histories host_history_;
-  AuditArrays host_audit_;
-};
-
-}  // namespace
+  PetscCall(PetscLogEventEnd(events.halo, nullptr, nullptr, nullptr, nullptr));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block, bool audit,
                                  const std::string &way, std::unique_ptr<Backend> *backend) {

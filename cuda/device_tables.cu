@@ -112,7 +112,8 @@ std::size_t DeviceTables::Bytes() const {
   auto add = [&](const auto &...array) { ((bytes += array.bytes()), ...); };
   add(x_, mass_, inverse_mass_, block_param_, joint_param_, slots_, list_start_, list_entry_, record_, table_,
       load_start_, load_table_, watch_, quiet_, kind_, value_, load_, dashpot_, weight_, last_, partial_, undamped_,
-      node_work_, row_work_, speed_, half_, weight_u_, load_wave_, released_);
+      observed_, node_work_, row_work_, speed_, half_, weight_u_, load_wave_, released_, balance_.u, balance_.residual,
+      balance_.now, balance_.share);
   add(averages_.start, averages_.entry, averages_.inverse_volume, averages_.dilatation, averages_.pressure,
       averages_.of_dilatation, averages_.of_pressure, averages_.before);
   for (const Elements &e : elements_)

@@ -28,6 +28,13 @@ class DeviceTables {
   /// The balance at u(n) over all ranks; the state is put back as it was.
   PetscErrorCode Audit(const NodeView &nodes, const StepArgs &args, BatchState *batch, const LaunchArgs &launch,
                        AuditSums *sums);
+  /// What a relaxation is steered by; see Backend. [in] u: device.
+  PetscErrorCode LookAtBalance(const NodeView &nodes, const StepArgs &args, cudaStream_t stream, Observed *observed,
+                               BalanceTerms *terms);
+  PetscErrorCode KeepLook(const double *u, cudaStream_t stream);
+  PetscErrorCode Kinetic(const double *v, cudaStream_t stream, double *energy);
+  PetscErrorCode DownloadBalance(BalanceMemory *memory) const;
+  PetscErrorCode UploadBalance(const BalanceMemory &memory);
   PetscErrorCode DownloadAudit(AuditArrays *arrays) const;
   PetscErrorCode UploadAudit(const AuditArrays &arrays);
   bool audited() const { return audited_; }
@@ -51,6 +58,10 @@ class DeviceTables {
     DeviceArray<double> normal, area, kn, ks, history;
     DeviceArray<std::uint8_t> state, counted;
     DeviceArray<double> work, viscous, each;  ///< of the audit: [kSpringWorks][n_pad], [3][n_pad], energies
+  };
+  /// Of relaxations: what their checks keep, and what is added up.
+  struct Balance {
+    DeviceArray<double> u, residual, now, share;
   };
   /// What an audit changes and puts back.
   struct Kept {
@@ -76,6 +87,8 @@ class DeviceTables {
                                const LaunchArgs &launch);
   PetscErrorCode LaunchNodes(const NodeView &nodes, const StepArgs &args, BatchState *batch, const LaunchArgs &launch);
   PetscErrorCode CreateAudit();
+  PetscErrorCode CreateBalance();
+  PetscErrorCode SumShares(int n, cudaStream_t stream, std::vector<double> *sums);
   template <class F>
   void EachAudited(F &&f);  ///< f(array) with every array that an audit changes
   PetscErrorCode FillEnergies(const NodeView &nodes, const LaunchArgs &launch);  ///< of each element and spring
@@ -83,8 +96,7 @@ class DeviceTables {
   ElementView View(const Elements &e, const double *u, const double *v, double beta, bool early = false) const;
   SpringView View(const Springs &s, const double *u, const double *v, double beta, bool early = false) const;
   SlotLists Lists(bool early = false) const { return {list_start_.get(), list_entry_.get(), slots_.get(), early}; }
-  /// Sums columns of partial_ rows on the host, in order.
-  PetscErrorCode AddPartial(int blocks, int columns, double *sums, int maxima) const;
+  PetscErrorCode AddPartial(int blocks, int columns, int maxima, std::size_t to, cudaStream_t stream);
 
   const Tables *t_ = nullptr;
   std::vector<Elements> elements_;
@@ -98,10 +110,12 @@ class DeviceTables {
   DeviceArray<double> weight_, last_;       // of damped nodes
   DeviceArray<std::uint8_t> released_;      // [n_cells], where they release their springs
   DeviceArray<double> partial_, undamped_;  // only once something is observed
+  DeviceArray<double> observed_;            // [1 + element tables + spring tables][kNodeSums]
   bool audited_ = false;
   DeviceArray<double> node_work_, row_work_, speed_, half_, weight_u_;  // of the audit; the last two at nodes
   DeviceArray<std::uint8_t> load_wave_;
   Kept kept_;
+  Balance balance_;
   OrderFreeSum sum_;
 };
 

@@ -5,16 +5,35 @@
 
 namespace cdem {
 
-PetscErrorCode DeviceTables::AddPartial(int blocks, int columns, double *sums, int maxima) const {
+namespace {
+
+constexpr int kAddBlock = 1024;
+
+/// Sums (the last columns: maxima) over the rows of partial [rows][columns], a block a column, in one order.
+__global__ void __launch_bounds__(kAddBlock)
+    AddRowsKernel(int rows, int columns, int maxima, const double *partial, double *sums) {
+  const int k = blockIdx.x;
+  const bool adds = k < columns - maxima;
+  double value = 0;
+  for (int row = threadIdx.x; row < rows; row += kAddBlock) {
+    const double one = partial[static_cast<long long>(row) * columns + k];
+    value = adds ? value + one : (one > value ? one : value);
+  }
+  using Reduce = cub::BlockReduce<double, kAddBlock>;
+  __shared__ typename Reduce::TempStorage storage;
+  value = adds ? Reduce(storage).Sum(value)
+               : Reduce(storage).Reduce(value, [](double p, double q) { return p > q ? p : q; });
+  if (threadIdx.x == 0) sums[k] = value;
+}
+
+}  // namespace
+
+/// Sums the rows of partial_ into row `to` of the results of an observation.
+PetscErrorCode DeviceTables::AddPartial(int blocks, int columns, int maxima, std::size_t to, cudaStream_t stream) {
   PetscFunctionBeginUser;
-  std::vector<double> rows(static_cast<std::size_t>(blocks) * columns);
+  AddRowsKernel<<<columns, kAddBlock, 0, stream>>>(blocks, columns, maxima, partial_.get(),
+                                                   observed_.get() + to * kNodeSums);
   CdemCuda(cudaGetLastError());
-  CdemCuda(cudaMemcpy(rows.data(), partial_.get(), rows.size() * sizeof(double), cudaMemcpyDeviceToHost));
-  for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < columns; ++k) {
-      const double value = rows[static_cast<std::size_t>(b) * columns + k];
-      sums[k] = k < columns - maxima ? sums[k] + value : std::max(sums[k], value);
-    }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -26,10 +45,9 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
     for (const Elements &e : elements_) most = std::max(most, Blocks(e.host->n, kBlock) * kElementSums);
     for (const Springs &s : springs_) most = std::max(most, Blocks(s.host->n, kBlock) * kSpringSums);
     PetscCall(partial_.Allocate(most));
+    PetscCall(observed_.Allocate((1 + elements_.size() + springs_.size()) * kNodeSums));
     if (t_->beta != 0) PetscCall(undamped_.Allocate(3 * static_cast<std::size_t>(t_->n_owned)));
-    CdemCuda(cudaDeviceSynchronize());  // the zeroing runs on another stream than the kernels below
   }
-  double element[kElementSums] = {}, spring[kSpringSums] = {}, node[kNodeSums] = {};
   const int node_blocks = Blocks(t_->n_owned, kBlock);
   LaunchArgs launch;
   launch.stream = stream;
@@ -40,8 +58,7 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
       ElementObserveKernel<decltype(form), decltype(law), false>
           <<<blocks, kBlock, 0, stream>>>(View(e, nodes.u, nodes.v, 0), partial_.get(), e.each.get());
     });
-    CdemCuda(cudaStreamSynchronize(stream));
-    PetscCall(AddPartial(blocks, kElementSums, element, 0));
+    PetscCall(AddPartial(blocks, kElementSums, 0, 1 + (&e - elements_.data()), stream));
   }
   PetscCall(LaunchPressure(launch));
   for (const Springs &s : springs_) {
@@ -50,8 +67,7 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
       SpringObserveKernel<decltype(law), false>
           <<<blocks, kBlock, 0, stream>>>(View(s, nodes.u, nodes.v, 0), partial_.get(), s.each.get());
     });
-    CdemCuda(cudaStreamSynchronize(stream));
-    PetscCall(AddPartial(blocks, kSpringSums, spring, 0));
+    PetscCall(AddPartial(blocks, kSpringSums, 0, 1 + elements_.size() + (&s - springs_.data()), stream));
   }
   if (t_->beta != 0) PetscCall(LaunchDilatation(nodes.u, nodes.v, t_->beta, launch));
   if (t_->beta != 0 && t_->n_owned > 0) {
@@ -75,9 +91,17 @@ PetscErrorCode DeviceTables::Observe(const NodeView &nodes, const StepArgs &args
     NodeView seen = nodes;
     seen.last = nullptr;  // the host's observations know no acceleration of the step before either
     kernel<<<node_blocks, kBlock, 0, stream>>>(seen, args, Lists(), mass_.get(), f, partial_.get());
-    CdemCuda(cudaStreamSynchronize(stream));
-    PetscCall(AddPartial(node_blocks, kNodeSums, node, 2));
+    PetscCall(AddPartial(node_blocks, kNodeSums, 2, 0, stream));
   }
+  std::vector<double> rows(observed_.size());
+  CdemCuda(cudaMemcpyAsync(rows.data(), observed_.get(), observed_.bytes(), cudaMemcpyDeviceToHost, stream));
+  CdemCuda(cudaStreamSynchronize(stream));
+  const double *node = rows.data();
+  double element[kElementSums] = {}, spring[kSpringSums] = {};
+  for (std::size_t g = 0; g < elements_.size(); ++g)
+    for (int k = 0; k < kElementSums; ++k) element[k] += rows[(1 + g) * kNodeSums + k];
+  for (std::size_t g = 0; g < springs_.size(); ++g)
+    for (int k = 0; k < kSpringSums; ++k) spring[k] += rows[(1 + elements_.size() + g) * kNodeSums + k];
   *observed = Observed{node[0],
                        element[0],
                        spring[0],

@@ -14,8 +14,14 @@ void StepGraphs::Drop() {
 PetscErrorCode StepGraphs::Run(DeviceTables *tables, const NodeView &nodes, const StepArgs &args, BatchState *batch,
                                const LaunchArgs &launch, int n) {
   PetscFunctionBeginUser;
-  if (!(args == args_)) Drop();
-  args_ = args;
+  if (!(args == args_)) {
+    Drop();
+    args_ = args;
+    if (n < kWorthwhile) {  // such as a relaxation whose damping changes at every check
+      for (int i = 0; i < n; ++i) PetscCall(tables->LaunchStep(nodes, args, batch, launch));
+      PetscFunctionReturn(PETSC_SUCCESS);
+    }
+  }
   // the few steps first: a long graph takes the host long to launch, and so the GPU already works while it does
   for (int i = 0; i < n % kShort; ++i) PetscCall(tables->LaunchStep(nodes, args, batch, launch));
   const int shorts = n % kLong / kShort;

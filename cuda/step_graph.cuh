@@ -21,6 +21,7 @@ class StepGraphs {
 
  private:
   static constexpr int kShort = 8, kLong = 64;  ///< steps
+  static constexpr int kWorthwhile = 200;       ///< steps of new args from which on graphs are made at once
   PetscErrorCode Capture(int steps, DeviceTables *tables, const NodeView &nodes, const StepArgs &args,
                          BatchState *batch, const LaunchArgs &launch, cudaGraphExec_t *exec);
 

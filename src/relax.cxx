@@ -1,7 +1,6 @@
 // The part of Simulation that brings a body to rest: checks of balance, and what the controller makes of them.
 #include "core/error.hpp"
 #include "core/events.hpp"
-#include "core/exact_sum.hpp"
 #include "simulation.hpp"
 
 #include <algorithm>
@@ -13,48 +12,11 @@ namespace cdem {
 /// a multiple of that is always stopped where it began, and never ends.
 static constexpr PetscInt kPeakInterval = 1;
 
-/// Adds the kinetic energies of the owned nodes [J].
-static void AddKinetic(const Tables &tables, const double *v, ExactSum *sum) {
-  for (int i = 0; i < tables.n_owned; ++i)
-    for (int k = 0; k < 3; ++k) {
-      const double speed = v[3 * static_cast<std::size_t>(i) + k];
-      sum->Add(0.5 * tables.mass[i] * speed * speed);
-    }
-}
-
 /// Steps until the controller looks again.
 PetscInt Simulation::StepsToCheck(PetscInt step) const {
   const PetscInt since = step - stage_step_, interval = relaxation_->plan().interval;
   const PetscInt n = interval - since % interval;
   return relaxation_->plan().damping == RelaxDamping::kKinetic ? std::min(n, kPeakInterval - since % kPeakInterval) : n;
-}
-
-/// Kinetic energy of the half-step velocities [J], over all ranks; on the device, where v is there.
-PetscErrorCode Simulation::Kinetic(double *energy) {
-  PetscFunctionBeginUser;
-  if (device_ == "cpu") {
-    const PetscScalar *v;
-    ExactSum sum;
-    PetscCall(VecGetArrayRead(v_, &v));
-    AddKinetic(tables_, v, &sum);
-    PetscCall(VecRestoreArrayRead(v_, &v));
-    PetscCall(ExactSum::OverRanks(comm_, &sum, 1));
-    *energy = sum.Value();
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  if (!mass_) {
-    PetscScalar *mass;
-    PetscCall(VecDuplicate(v_, &mass_));
-    PetscCall(VecDuplicate(v_, &momentum_));
-    PetscCall(VecGetArray(mass_, &mass));
-    for (int i = 0; i < tables_.n_owned; ++i)
-      for (int k = 0; k < 3; ++k) mass[3 * static_cast<std::size_t>(i) + k] = tables_.mass[i];
-    PetscCall(VecRestoreArray(mass_, &mass));
-  }
-  PetscCall(VecPointwiseMult(momentum_, mass_, v_));
-  PetscCall(VecDot(momentum_, v_, energy));
-  *energy *= 0.5;
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /// Velocities become 0; the coming step is a first one.
@@ -81,7 +43,7 @@ PetscErrorCode Simulation::WatchBalance(TS ts) {
   const PetscInt since = step - run->stage_step_;
   if (plan.damping == RelaxDamping::kKinetic && since % kPeakInterval == 0) {
     double kinetic;
-    PetscCall(run->Kinetic(&kinetic));
+    PetscCall(run->backend_->Kinetic(&kinetic));
     if (run->relaxation_->PassedPeak(kinetic)) PetscCall(run->StopMotion());
     run->to_keep_ = run->relaxation_->memory();
   }
@@ -99,37 +61,20 @@ bool Simulation::FindsDamping() const {
 PetscErrorCode Simulation::CheckBalance(PetscInt step) {
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.observe, nullptr, nullptr, nullptr, nullptr));
-  const double *u, *v;
-  const Histories *history;
   double dt_old, time;
   PetscCall(TSCentralGetLastStep(ts_, &dt_old));
   PetscCall(TSGetTime(ts_, &time));
-  PetscCall(backend_->Download(&u, &v, &history));
-  std::vector<double> schedule(3 * Now().tables.size()), v_now;
+  std::vector<double> schedule(3 * Now().tables.size());
   FillSchedule(time - stage_time_, dt_, schedule.data());
-  ElementResults elements;
-  SpringResults springs;
-  PetscCall(ObserveOnHost(tables_, static_cast<int>(mesh_.n_owned), u, v, *history, MakeArgs(dt_old, dt_),
-                          schedule.data(), &elements, &springs, &v_now, &last_, &residual_));
+  BalanceTerms terms;
+  PetscCall(backend_->LookAtBalance(MakeArgs(dt_old, dt_), schedule.data(), &last_, &terms));
   PetscCall(SumOverRanks(comm_, &last_));
-  ExactSum sums[3];  // kinetic energy, and those of the path since the last check: what steers must not know the ranks
-  AddKinetic(tables_, v_now.data(), &sums[0]);
-  if (step > stage_step_)
-    for (int i = 0; i < tables_.n_owned; ++i)
-      for (int k = 0; k < 3; ++k) {
-        const std::size_t at = 3 * static_cast<std::size_t>(i) + k;
-        const double du = residual_[at] == 0 ? 0 : u[at] - last_u_[at];  // prescribed components have no residual
-        sums[1].Add(du * (last_residual_[at] - residual_[at]));
-        sums[2].Add(du * tables_.mass[i] * du);
-      }
-  PetscCall(ExactSum::OverRanks(comm_, sums, 3));
   to_keep_ = relaxation_->memory();
   balanced_ = relaxation_->Check(
-      {sums[0].Value(), last_.strain + last_.spring, last_.Unbalanced(), sums[1].Value(), sums[2].Value()});
+      {terms.kinetic, last_.strain + last_.spring, last_.Unbalanced(), terms.stiffness, terms.inertia});
   if ((step - stage_step_) % relaxation_->plan().interval == 0) {
     to_keep_ = relaxation_->memory();
-    last_u_.assign(u, u + 3 * static_cast<std::size_t>(tables_.n_owned));
-    last_residual_ = residual_;
+    PetscCall(backend_->KeepLook());
     if (FindsDamping()) alpha_ = relaxation_->Alpha();
   }
   PetscCall(PetscLogEventEnd(events.observe, nullptr, nullptr, nullptr, nullptr));
@@ -138,9 +83,11 @@ PetscErrorCode Simulation::CheckBalance(PetscInt step) {
 
 PetscErrorCode Simulation::ReportImbalance() {
   PetscFunctionBeginUser;
+  const BalanceMemory *memory;
+  PetscCall(backend_->DownloadBalance(&memory));
   double largest = 0, x[3] = {0, 0, 0};
   for (int i = 0; i < tables_.n_owned; ++i) {
-    const double *force = &residual_[3 * static_cast<std::size_t>(i)];
+    const double *force = &memory->now[3 * static_cast<std::size_t>(i)];
     const double size = std::sqrt(Dot(force, force));
     if (size <= largest) continue;
     largest = size;

@@ -156,8 +156,10 @@ PetscErrorCode Simulation::LoadRelaxation() {
   if (!same) to_keep_.calm = 0;  // what was calm by other limits counts no more
   relaxation_->Recall(to_keep_);
   if (FindsDamping()) alpha_ = relaxation_->Alpha();
-  PetscCall(restart_.ReadNodes(checkpoint_scene_, "checked_displacement", &last_u_));
-  PetscCall(restart_.ReadNodes(checkpoint_scene_, "checked_residual", &last_residual_));
+  BalanceMemory memory;
+  PetscCall(restart_.ReadNodes(checkpoint_scene_, "checked_displacement", &memory.u));
+  PetscCall(restart_.ReadNodes(checkpoint_scene_, "checked_residual", &memory.residual));
+  PetscCall(backend_->UploadBalance(memory));
   balanced_ = same && to_keep_.calm >= 2;
   if (balanced_) PetscCall(TSSetMaxSteps(ts_, first_step_));  // it has ended there
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -229,8 +231,10 @@ PetscErrorCode Simulation::WriteCheckpoint(PetscInt step) {
                     {"relax_calm", to_keep_.calm},
                     {"relax_ratio", relaxation_->plan().ratio},
                     {"relax_kinetic", relaxation_->plan().kinetic}});
-    more.emplace_back("checked_displacement", last_u_.data());
-    more.emplace_back("checked_residual", last_residual_.data());
+    const BalanceMemory *memory;
+    PetscCall(backend_->DownloadBalance(&memory));
+    more.emplace_back("checked_displacement", memory->u.data());
+    more.emplace_back("checked_residual", memory->residual.data());
   }
   PetscCall(checkpoints_.Write(checkpoint_scene_, step, numbers, u, v, more, *history, *audit));
   last_checkpoint_ = step;

@@ -16,8 +16,6 @@ Simulation::~Simulation() {
   (void)TSDestroy(&ts_);
   (void)VecDestroy(&u_);
   (void)VecDestroy(&v_);
-  (void)VecDestroy(&mass_);
-  (void)VecDestroy(&momentum_);
 }
 
 PetscErrorCode Simulation::SetUp() {

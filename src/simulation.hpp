@@ -79,7 +79,6 @@ class Simulation final : public Stepper {
   // relaxation
   static PetscErrorCode WatchBalance(TS ts);
   PetscErrorCode CheckBalance(PetscInt step);
-  PetscErrorCode Kinetic(double *energy);
   PetscInt StepsToCheck(PetscInt step) const;
   PetscErrorCode StopMotion();
   PetscErrorCode ReportImbalance();
@@ -134,7 +133,6 @@ class Simulation final : public Stepper {
   Tables tables_;
   std::unique_ptr<Backend> backend_;
   Vec u_ = nullptr, v_ = nullptr;
-  Vec mass_ = nullptr, momentum_ = nullptr;  // of kinetic damping
   TS ts_ = nullptr;
 
   // time
@@ -153,8 +151,6 @@ class Simulation final : public Stepper {
   // relaxation
   std::unique_ptr<Relaxation> relaxation_;      // NULL in dynamic stages
   double alpha_ = 0, local_ = 0;                // damping by mass now [1/s], and of nodes
-  std::vector<double> last_u_, last_residual_;  // at the last regular check
-  std::vector<double> residual_;                // at the last check
   RelaxMemory to_keep_;                         // after the last regular check, for checkpoints
   bool balanced_ = false;
   std::string failure_;  // why the run ended early; "": it did not

@@ -189,8 +189,6 @@ PetscErrorCode Simulation::NextStage() {
   PetscCall(TSDestroy(&ts_));
   PetscCall(VecDestroy(&u_));
   PetscCall(VecDestroy(&v_));
-  PetscCall(VecDestroy(&mass_));
-  PetscCall(VecDestroy(&momentum_));
   const Tables old = std::move(tables_);
   backend_.reset();
 

@@ -2,6 +2,7 @@
 // steps, and observes without touching the state.
 #pragma once
 #include "forces/audit.hpp"
+#include "forces/balance.hpp"
 #include "forces/host_passes.hpp"
 
 #include <memory>
@@ -62,6 +63,16 @@ class Backend {
   virtual PetscErrorCode Advance(const Batch &batch, Failure *failure) = 0;
   /// Energies, momentum and balance at u(n). [in] next: the arguments that the coming step would have.
   virtual PetscErrorCode Observe(const StepArgs &next, const double *schedule, Observed *observed) = 0;
+  /// What a relaxation is steered by, at u(n) (collective). Arguments as for Observe. [out] observed: of this rank.
+  virtual PetscErrorCode LookAtBalance(const StepArgs &next, const double *schedule, Observed *observed,
+                                       BalanceTerms *terms) = 0;
+  /// The last look counts: the next paths begin there.
+  virtual PetscErrorCode KeepLook() = 0;
+  /// Host copies of what those looks keep, and back.
+  virtual PetscErrorCode DownloadBalance(const BalanceMemory **memory) = 0;
+  virtual PetscErrorCode UploadBalance(const BalanceMemory &memory) = 0;
+  /// Kinetic energy of the half-step velocities (collective) [J].
+  virtual PetscErrorCode Kinetic(double *energy) = 0;
   /// Host copies of u, v [n_local][3] (ghosts up to date) and of the histories; pointers stay valid until the next call.
   virtual PetscErrorCode Download(const double **u, const double **v, const Histories **history) = 0;
   /// Sets u, v [n_owned][3] (host) and the histories: a run that goes on from a checkpoint or an earlier stage.

@@ -169,6 +169,33 @@ class HostBackend final : public Backend {
     PetscFunctionReturn(PETSC_SUCCESS);
   }
 
+  PetscErrorCode LookAtBalance(const StepArgs &next, const double *schedule, Observed *observed,
+                               BalanceTerms *terms) override {
+    PetscFunctionBeginUser;
+    PetscCall(Halo());
+    ElementResults elements;
+    SpringResults springs;
+    std::vector<double> v_now;
+    PetscCall(ObserveOnHost(t_, n_owned_cells_, u_.data(), v_.data(), history_, next, schedule, &elements, &springs,
+                            &v_now, observed, &balance_.now));
+    PetscCall(BalanceOnHost(t_, u_.data(), v_now.data(), balance_, terms));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscErrorCode KeepLook() override {
+    balance_.u.assign(u_.begin(), u_.begin() + 3 * static_cast<std::ptrdiff_t>(t_.n_owned));
+    balance_.residual = balance_.now;
+    return PETSC_SUCCESS;
+  }
+  PetscErrorCode DownloadBalance(const BalanceMemory **memory) override {
+    *memory = &balance_;
+    return PETSC_SUCCESS;
+  }
+  PetscErrorCode UploadBalance(const BalanceMemory &memory) override {
+    balance_ = memory;
+    return PETSC_SUCCESS;
+  }
+  PetscErrorCode Kinetic(double *energy) override { return KineticOnHost(t_, v_.data(), energy); }
+
   PetscErrorCode Audit(const StepArgs &next, const double *schedule, AuditSums *sums) override {
     PetscFunctionBeginUser;
     PetscCheck(!audit_.Empty(), PETSC_COMM_SELF, PETSC_ERR_ORDER, "the energy audit is off");
@@ -255,6 +282,7 @@ class HostBackend final : public Backend {
   std::vector<double> u_, v_, f_;
   Histories history_;
   AuditArrays audit_;                      // empty while the audit is off
+  BalanceMemory balance_;                  // of relaxations
   std::vector<std::uint8_t> released_;     // of cells, where breaking elements release their interfaces
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;

@@ -1,6 +1,6 @@
 #include "loads/supports.hpp"
 
-#include "core/exact_sum.hpp"
+#include "core/order_free_sum.hpp"
 #include "core/options.hpp"
 
 #include <algorithm>
@@ -39,7 +39,9 @@ PetscErrorCode SpreadImbalance(const Tables &tables, const std::vector<double> &
                                std::vector<double> *held) {
   PetscFunctionBeginUser;
   const NodeRecords &r = tables.records;
-  ExactSum sums[9];  // along x, y, z: out of balance [N], dashpots [N s/m], prescribed components
+  // along x, y, z: out of balance [N], dashpots [N s/m], prescribed components
+  const std::size_t n = static_cast<std::size_t>(tables.n_owned);
+  std::vector<std::vector<double>> value(9, std::vector<double>(n, 0.0));
   const auto dashpot = [&](int i, int k) {
     const int row = marks[i] == mark && !r.quiet.empty() ? r.of_node[i] : -1;
     const int quiet = row < 0 || IsPrescribed(r, i, k) ? -1 : r.quiet[row];
@@ -49,14 +51,17 @@ PetscErrorCode SpreadImbalance(const Tables &tables, const std::vector<double> &
     for (int k = 0; k < 3; ++k) {
       const std::size_t at = 3 * static_cast<std::size_t>(i) + k;
       if (tables.mass[i] == 0) continue;
-      sums[k].Add(((*held)[at] - earlier[at]) - reaction[at]);
-      sums[3 + k].Add(dashpot(i, k));
-      sums[6 + k].Add(IsPrescribed(r, i, k));
+      value[k][i] = ((*held)[at] - earlier[at]) - reaction[at];
+      value[3 + k][i] = dashpot(i, k);
+      value[6 + k][i] = IsPrescribed(r, i, k);
     }
-  PetscCall(ExactSum::OverRanks(tables.comm, sums, 9));
+  std::vector<std::vector<Summands>> terms;
+  for (const std::vector<double> &one : value) terms.push_back({{one.data(), nullptr, n}});
+  std::vector<double> sums;
+  PetscCall(SumInAnyOrder(tables.comm, terms, &sums));
   for (int k = 0; k < 3; ++k) {
-    const double force = sums[k].Value(), all = sums[3 + k].Value();
-    if (all == 0 || sums[6 + k].Value() > 0) continue;
+    const double force = sums[k], all = sums[3 + k];
+    if (all == 0 || sums[6 + k] > 0) continue;
     for (int i = 0; i < tables.n_owned; ++i)
       (*held)[3 * static_cast<std::size_t>(i) + k] -= force * (dashpot(i, k) / all);
   }

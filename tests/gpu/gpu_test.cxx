@@ -176,6 +176,25 @@ TEST(CpuGpu, BrokenBlocksReleaseTheirInterfaces) {
   }
 }
 
+std::string RelaxingScene(const std::string &damping) {
+  return std::string(
+             "-mesh box -mesh_box_cells 3,3,6 -mesh_box_size 3,3,6 -mesh_box_jitter 0.2 -gravity 0,0,-9.81 "
+             "-boundaries zmin -boundary_zmin_fix xyz -interfaces j -interface_j_on all -interface_j_law brittle "
+             "-interface_j_tension 1e8 -interface_j_cohesion 1e8 -interface_j_friction 30 -damping_beta 1e-5 "
+             "-solve relax -relax_damping ") +
+         damping + kRock;
+}
+
+TEST(CpuGpu, Relaxation) {
+  for (const char *damping : {"rayleigh", "local", "combined", "kinetic"}) {
+    SCOPED_TRACE(damping);
+    const SceneResult cpu = RunScene(RelaxingScene(damping) + " -device cpu"),
+                      gpu = RunScene(RelaxingScene(damping) + " -device cuda");
+    ASSERT_FALSE(cpu.failed || gpu.failed);
+    EXPECT_LE(RelativeDifference(gpu.u, cpu.u), kExact ? 0 : 1e-5);
+  }
+}
+
 TEST(CpuGpu, BlocksUpToTheirStrength) {
   for (const char *law : kFailingLaws) {
     const std::string scene =
@@ -208,6 +227,7 @@ TEST(GpuRanks, DoNotMatter) {
     ExpectRanksDoNotMatter(FailingScene("hex", law) + " -ts_max_steps 1000 -device cuda");
   for (const std::string &scene : FormScenes()) ExpectRanksDoNotMatter(scene + " -ts_max_steps 500 -device cuda");
   ExpectRanksDoNotMatter(ReleasingScene("hex") + " -ts_max_steps 800 -device cuda");
+  for (const char *damping : {"rayleigh", "kinetic"}) ExpectRanksDoNotMatter(RelaxingScene(damping) + " -device cuda");
   ExpectRanksDoNotMatter(QuietScene("hex", "-ts_max_steps 500 -device cuda"));
 }
 

@@ -254,7 +254,7 @@ def test_kills(ranks, tmp_path):
     rng, kills, folder = random.Random(ranks), 0, tmp_path / "killed"
     out, typical, stages = folder / "out", 0.3 + straight.wall, set()
     folder.mkdir()
-    while kills < max(2, KILLS // ranks**2):
+    while kills < max(2, KILLS // ranks**2) or not stages:
         shutil.rmtree(out, ignore_errors=True)
         for _ in range(1000):
             step = last_checkpoint(out) if out.exists() else None
@@ -279,4 +279,3 @@ def test_kills(ranks, tmp_path):
             if run.returncode == 0:
                 break
         assert_same(out, straight.out, end, [])
-    assert stages, "no run went on from a checkpoint"
