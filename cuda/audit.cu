@@ -3,6 +3,30 @@
 
 namespace cdem {
 
+/// Makes one array a copy of another one.
+template <class T>
+static PetscErrorCode Copy(DeviceArray<T> *to, const DeviceArray<T> &from, cudaStream_t stream) {
+  PetscFunctionBeginUser;
+  if (to->size() != from.size()) PetscCall(to->Allocate(from.size()));
+  if (from.size() > 0) CdemCuda(cudaMemcpyAsync(to->get(), from.get(), from.bytes(), cudaMemcpyDeviceToDevice, stream));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DeviceTables::HistoriesAreThoseBefore(cudaStream_t stream) {
+  PetscFunctionBeginUser;
+  for (Elements &e : elements_) {
+    if (e.work.size() == 0) continue;
+    PetscCall(Copy(&e.state_before, e.state, stream));
+    PetscCall(Copy(&e.value_before, e.value, stream));
+  }
+  for (Springs &s : springs_) {
+    if (s.work.size() == 0) continue;
+    PetscCall(Copy(&s.state_before, s.state, stream));
+    PetscCall(Copy(&s.history_before, s.history, stream));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode DeviceTables::CreateAudit() {
   PetscFunctionBeginUser;
   audited_ = true;
@@ -17,6 +41,8 @@ PetscErrorCode DeviceTables::CreateAudit() {
   PetscCall(speed_.Upload(start.speed));
   PetscCall(averages_.before.Upload(start.dilatation));
   PetscCall(load_wave_.Upload(t_->records.load_wave));
+  PetscCall(HistoriesAreThoseBefore(nullptr));
+  CdemCuda(cudaStreamSynchronize(nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,13 +107,6 @@ PetscErrorCode DeviceTables::FillEnergies(const NodeView &nodes, const LaunchArg
 PetscErrorCode DeviceTables::Audit(const NodeView &nodes, const StepArgs &args, BatchState *batch,
                                    const LaunchArgs &launch, AuditSums *sums) {
   PetscFunctionBeginUser;
-  const auto copy = [&](auto &to, const auto &from) {
-    PetscFunctionBeginUser;
-    if (to.size() != from.size()) PetscCall(to.Allocate(from.size()));
-    if (from.size() > 0)
-      CdemCuda(cudaMemcpyAsync(to.get(), from.get(), from.bytes(), cudaMemcpyDeviceToDevice, launch.stream));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  };
   PetscCall(FillEnergies(nodes, launch));
   // The evaluation that ends the step is taken, and taken back: what it dissipates belongs to the step before.
   PetscErrorCode ierr = PETSC_SUCCESS;
@@ -95,10 +114,10 @@ PetscErrorCode DeviceTables::Audit(const NodeView &nodes, const StepArgs &args, 
   const auto keep = [&](auto &array) {
     if constexpr (std::is_same_v<std::decay_t<decltype(array)>, DeviceArray<double>>) {
       if (numbers == kept_.numbers.size()) kept_.numbers.emplace_back();
-      if (!ierr) ierr = copy(kept_.numbers[numbers++], array);
+      if (!ierr) ierr = Copy(&kept_.numbers[numbers++], array, launch.stream);
     } else {
       if (states == kept_.states.size()) kept_.states.emplace_back();
-      if (!ierr) ierr = copy(kept_.states[states++], array);
+      if (!ierr) ierr = Copy(&kept_.states[states++], array, launch.stream);
     }
   };
   EachAudited(keep);
@@ -106,15 +125,14 @@ PetscErrorCode DeviceTables::Audit(const NodeView &nodes, const StepArgs &args, 
   PetscCall(LaunchDilatation(nodes.u, nodes.v, t_->beta, launch));
   for (const Elements &e : elements_) {
     const ElementView view = View(e, nodes.u, nodes.v, t_->beta);
-    if (e.work.size() > 0) {
-      PetscCall(LaunchAudited(e, view, args, true, batch, false, launch));
-      continue;
-    }
     VisitBlock(e.host->shape, e.host->form, e.host->law, [&](auto form, auto law) {
-      ierr = Launch(ElementKernel<decltype(form), decltype(law), false>, Blocks(e.host->n, launch.block), launch.block,
-                    launch, view, batch, false);
+      using Form = decltype(form);
+      using Law = decltype(law);
+      auto kernel = t_->beta != 0 ? ElementKernel<Form, Law, true> : ElementKernel<Form, Law, false>;
+      ierr = Launch(kernel, Blocks(e.host->n, launch.block), launch.block, launch, view, batch, false);
     });
     PetscCall(ierr);
+    if (e.work.size() > 0) PetscCall(LaunchWork(e, view, args, true, launch));
   }
   PetscCall(LaunchPressure(launch));
   if (t_->releases) {
@@ -158,13 +176,14 @@ PetscErrorCode DeviceTables::Audit(const NodeView &nodes, const StepArgs &args, 
   numbers = states = 0;
   const auto put_back = [&](auto &array) {
     if constexpr (std::is_same_v<std::decay_t<decltype(array)>, DeviceArray<double>>) {
-      if (!ierr) ierr = copy(array, kept_.numbers[numbers++]);
+      if (!ierr) ierr = Copy(&array, kept_.numbers[numbers++], launch.stream);
     } else {
-      if (!ierr) ierr = copy(array, kept_.states[states++]);
+      if (!ierr) ierr = Copy(&array, kept_.states[states++], launch.stream);
     }
   };
   EachAudited(put_back);
   PetscCall(ierr);
+  PetscCall(HistoriesAreThoseBefore(launch.stream));
   CdemCuda(cudaStreamSynchronize(launch.stream));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

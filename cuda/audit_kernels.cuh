@@ -1,5 +1,5 @@
-// The loops over elements and springs on the GPU with the energy audit: the same bodies as on the CPU, one thread each,
-// which adds to numbers of its own.
+// The energy audit of elements and springs on the GPU: behind the kernels of the step, which know nothing of it, the
+// bodies of the CPU's audit on the histories as they were before, one thread each, which adds to numbers of its own.
 #pragma once
 #include "cuda/element_kernels.cuh"
 #include "cuda/spring_kernels.cuh"
@@ -11,26 +11,30 @@ namespace cdem {
 /// What the audit adds to an ElementView.
 struct ElementAuditView {
   double *work = nullptr;          ///< [kElementWorks][n_pad]
+  std::uint8_t *state = nullptr;   ///< before the step, as in ElementView; of laws with history
+  double *value = nullptr;         ///< the same
+  int values = 0;                  ///< rows of it
   const double *speed = nullptr;   ///< [n_local][3] velocity of the step before; with beta
   const double *before = nullptr;  ///< dilatation of the step before; of forms that average
   double dt = 0, next_dt = 0;      ///< s; of the step that ended, 0 at the start; of the coming one
   bool last = false;               ///< the sums are wanted as of now
 };
 
-/// ElementKernel of a law that can dissipate, or with damping by stiffness.
+/// Behind ElementKernel, of a law that can dissipate, or with damping by stiffness.
 template <class Form, class Law>
-__global__ void __launch_bounds__(256)
-    AuditedElementKernel(ElementView t, ElementAuditView a, BatchState *batch, bool counts) {
+__global__ void __launch_bounds__(256) ElementWorkKernel(ElementView t, ElementAuditView a) {
   constexpr int corners = Form::kCorners;
   const int e = blockIdx.x * blockDim.x + threadIdx.x;
+  WaitForPrevious(t.early);
   if (e < t.n) {
     const bool damped = t.beta != 0;
+    if constexpr (Law::kState > 0)
+      if (!damped && t.state[e] == 0) return;  // nothing has ever happened to it
     double x[corners][3], w[corners][3], rate[corners][3], param[kMaxParams], force[corners][3];
     double step[corners][3], mean[corners][3], speed[corners][3];
     const double *row = t.param + kMaxParams * t.material[e];
 #pragma unroll
     for (int p = 0; p < Law::kParams; ++p) param[p] = row[p];
-    WaitForPrevious(t.early);
 #pragma unroll
     for (int c = 0; c < corners; ++c) {
       const long long node = 3ll * t.node[static_cast<long long>(c) * t.n_pad + e];
@@ -64,10 +68,9 @@ __global__ void __launch_bounds__(256)
       }
     }
     ElementHistory<double> history;
-    std::uint8_t before = 0;
     if constexpr (Law::kState > 0) {
-      before = t.state[e];
-      history = {t.value + e,
+      const std::uint8_t before = a.state[e];
+      history = {a.value + e,
                  t.n_pad,
                  (before & kTouched) != 0,
                  false,
@@ -83,42 +86,43 @@ __global__ void __launch_bounds__(256)
     audit.next_dt = a.next_dt;
     audit.last = a.last;
     AuditedStep<Form, Law, double>(x, w, damped ? rate : nullptr, param, &history, force, &audit);
-    if constexpr (Form::kAverages) t.average.pressure[e] = Form::Pressure(x, force);
-    if constexpr (Law::kState > 0) {
-      const bool broken = Failed<Law>(history);
-      const std::uint8_t after = (history.touched || history.changed ? kTouched : 0) |
-                                 (history.tension ? kBrokenTension : 0) | (history.shear ? kBrokenShear : 0);
-      if (after != before) {
-        t.state[e] = after;
-        if (Law::kJudgesMean && broken && !(before & (kBrokenTension | kBrokenShear)))
-          t.broken_time[e] = StepEnd(batch->base, batch->offset, batch->next, batch->dt);
+    if constexpr (Law::kState > 0) {  // the next step begins with what the step itself has made of it
+      a.state[e] = t.state[e];
+      for (int k = 0; k < a.values && t.state[e]; ++k) {
+        const long long at = static_cast<long long>(k) * t.n_pad + e;
+        a.value[at] = t.value[at];
       }
     }
 #pragma unroll
     for (int i = 0; i < kElementWorks; ++i)
       if (audit.work[i] != 0) a.work[static_cast<long long>(i) * t.n_pad + e] += audit.work[i];
-#pragma unroll
-    for (int c = 0; c < corners; ++c)
-#pragma unroll
-      for (int k = 0; k < 3; ++k) t.slot[3 * (static_cast<long long>(c) * t.n_pad + e) + k] = force[c][k];
   }
-  if (counts && e == 0) batch->step = batch->next;
 }
 
 /// What the audit adds to a SpringView.
 struct SpringAuditView {
-  double *work = nullptr;     ///< [kSpringWorks][n_pad]
-  double *viscous = nullptr;  ///< [3][n_pad] N, damping force of the step before; with beta
-  double dt = 0;              ///< s, of the step that ended
+  double *work = nullptr;         ///< [kSpringWorks][n_pad]
+  std::uint8_t *state = nullptr;  ///< before the step; of laws with history
+  double *history = nullptr;      ///< the same
+  double *viscous = nullptr;      ///< [3][n_pad] N, damping force of the step before; with beta
+  double dt = 0;                  ///< s, of the step that ended
 };
 
+/// Behind SpringKernel, of a law that can dissipate, or with damping by stiffness.
 template <class Law, bool kBeta>
-__global__ void __launch_bounds__(kBlock) AuditedSpringKernel(SpringView t, SpringAuditView a) {
+__global__ void __launch_bounds__(kBlock) SpringWorkKernel(SpringView t, SpringAuditView a) {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
+  WaitForPrevious(t.early);
   if (i >= t.n) return;
+  SpringView earlier = t;
+  if constexpr (Law::kHistory) {
+    if (!kBeta && t.state[i] == 0) return;  // nothing has ever happened to it
+    earlier.state = a.state;
+    earlier.history = a.history;
+  }
   Spring<double> s, again;
   double param[kMaxParams], force[3], lawful[3];
-  const std::uint8_t state = GatherSpring<Law, kBeta>(t, i, s, param);
+  const std::uint8_t state = GatherSpring<Law, kBeta>(earlier, i, s, param);
   again = s;
   SpringBefore<double> before;
   if constexpr (kDissipates<Law>) {
@@ -153,7 +157,13 @@ __global__ void __launch_bounds__(kBlock) AuditedSpringKernel(SpringView t, Spri
     for (int k = 0; k < kSpringWorks; ++k)
       if (work[k] != 0) a.work[static_cast<long long>(k) * t.n_pad + i] += work[k];
   }
-  FinishSpring<Law, true>(t, i, s, state, outcome, force);
+  if constexpr (Law::kHistory) {  // the next step begins with what the step itself has made of it
+    a.state[i] = t.state[i];
+    for (int k = 0; k < Law::kState && t.state[i]; ++k) {
+      const long long at = static_cast<long long>(k) * t.n_pad + i;
+      a.history[at] = t.history[at];
+    }
+  }
 }
 
 }  // namespace cdem

@@ -117,10 +117,11 @@ std::size_t DeviceTables::Bytes() const {
   add(averages_.start, averages_.entry, averages_.inverse_volume, averages_.dilatation, averages_.pressure,
       averages_.of_dilatation, averages_.of_pressure, averages_.before);
   for (const Elements &e : elements_)
-    add(e.node, e.material, e.layer, e.cell, e.counted, e.state, e.value, e.broken_time, e.work, e.each);
+    add(e.node, e.material, e.layer, e.cell, e.counted, e.state, e.value, e.broken_time, e.work, e.each, e.state_before,
+        e.value_before);
   for (const Springs &s : springs_)
     add(s.a, s.b, s.joint, s.cell, s.normal, s.area, s.kn, s.ks, s.history, s.state, s.counted, s.work, s.viscous,
-        s.each);
+        s.each, s.state_before, s.history_before);
   for (const auto &a : kept_.numbers) add(a);
   for (const auto &a : kept_.states) add(a);
   return bytes;
@@ -230,6 +231,7 @@ PetscErrorCode DeviceTables::UploadHistories(const Histories &histories) {
     PetscCall(springs_[g].history.Overwrite(histories.springs[g].values));
   }
   PetscCall(released_.Overwrite(std::vector<std::uint8_t>(released_.size(), 0)));
+  if (audited_) PetscCall(HistoriesAreThoseBefore(nullptr));
   const std::vector<double> &last = histories.acceleration;  // empty: the next step is the first one of its damping
   PetscCall(last_.Overwrite(last.empty() ? std::vector<double>(last_.size(), 0.0) : last));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -50,6 +50,8 @@ class DeviceTables {
     DeviceArray<std::uint8_t> counted, state;
     DeviceArray<double> value, broken_time;
     DeviceArray<double> work, each;  ///< of the audit: [kElementWorks][n_pad]; energies, once they are asked for
+    DeviceArray<std::uint8_t> state_before;  ///< of the audit: state and value before the step
+    DeviceArray<double> value_before;
   };
   struct Springs {
     const SpringTable *host;
@@ -58,6 +60,8 @@ class DeviceTables {
     DeviceArray<double> normal, area, kn, ks, history;
     DeviceArray<std::uint8_t> state, counted;
     DeviceArray<double> work, viscous, each;  ///< of the audit: [kSpringWorks][n_pad], [3][n_pad], energies
+    DeviceArray<std::uint8_t> state_before;   ///< of the audit: state and history before the step
+    DeviceArray<double> history_before;
   };
   /// Of relaxations: what their checks keep, and what is added up.
   struct Balance {
@@ -80,13 +84,13 @@ class DeviceTables {
   /// After the elements, in scenes whose broken elements break the springs of their faces.
   PetscErrorCode LaunchRelease(const LaunchArgs &launch);
   PetscErrorCode LaunchSprings(const NodeView &nodes, const StepArgs &args, const LaunchArgs &launch);
-  /// The same with the audit, of a table that can dissipate.
-  PetscErrorCode LaunchAudited(const Elements &e, const ElementView &view, const StepArgs &args, bool last,
-                               BatchState *batch, bool first, const LaunchArgs &launch);
-  PetscErrorCode LaunchAudited(const Springs &s, const SpringView &view, const StepArgs &args,
-                               const LaunchArgs &launch);
+  /// What a step has dissipated in a table that can do so; behind its forces.
+  PetscErrorCode LaunchWork(const Elements &e, const ElementView &view, const StepArgs &args, bool last,
+                            const LaunchArgs &launch);
+  PetscErrorCode LaunchWork(const Springs &s, const SpringView &view, const StepArgs &args, const LaunchArgs &launch);
   PetscErrorCode LaunchNodes(const NodeView &nodes, const StepArgs &args, BatchState *batch, const LaunchArgs &launch);
   PetscErrorCode CreateAudit();
+  PetscErrorCode HistoriesAreThoseBefore(cudaStream_t stream);  ///< for the audit of the coming step
   PetscErrorCode CreateBalance();
   PetscErrorCode SumShares(int n, cudaStream_t stream, std::vector<double> *sums);
   template <class F>

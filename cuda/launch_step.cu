@@ -25,10 +25,6 @@ PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, const StepArg
   for (const Elements &e : elements_) {
     const bool first = &e == &elements_[0];  // says which step it is
     const ElementView view = View(e, nodes.u, nodes.v, beta, launch.overlap);
-    if (e.work.size() > 0) {
-      PetscCall(LaunchAudited(e, view, args, false, batch, first, launch));
-      continue;
-    }
     PetscErrorCode ierr = PETSC_SUCCESS;
     VisitBlock(e.host->shape, e.host->form, e.host->law, [&](auto form, auto law) {
       using Form = decltype(form);
@@ -39,6 +35,9 @@ PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, const StepArg
     PetscCall(ierr);
   }
   PetscCall(LaunchPressure(launch));
+  for (const Elements &e : elements_)
+    if (e.work.size() > 0)
+      PetscCall(LaunchWork(e, View(e, nodes.u, nodes.v, beta, launch.overlap), args, false, launch));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -47,10 +46,6 @@ PetscErrorCode DeviceTables::LaunchSprings(const NodeView &nodes, const StepArgs
   const double beta = t_->beta;
   for (const Springs &s : springs_) {
     const SpringView view = View(s, nodes.u, nodes.v, beta, launch.overlap);
-    if (s.work.size() > 0) {
-      PetscCall(LaunchAudited(s, view, args, launch));
-      continue;
-    }
     PetscErrorCode ierr = PETSC_SUCCESS;
     JointLaws::Visit(s.host->law, [&](auto law) {
       using Law = decltype(law);
@@ -58,6 +53,7 @@ PetscErrorCode DeviceTables::LaunchSprings(const NodeView &nodes, const StepArgs
       ierr = Launch(kernel, Blocks(s.host->n, kBlock), kBlock, launch, view);
     });
     PetscCall(ierr);
+    if (s.work.size() > 0) PetscCall(LaunchWork(s, view, args, launch));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -48,10 +48,11 @@ PetscErrorCode DeviceTables::LaunchRelease(const LaunchArgs &launch) {
     PetscCall(PetscSFBcastEnd(t_->cells, MPI_BYTE, released_.get(), released_.get(), MPI_REPLACE));
   }
   for (const Springs &s : springs_)
-    if (s.cell.size() > 0)
-      PetscCall(Launch(ReleaseKernel, Blocks(s.host->n, kBlock), kBlock, launch, s.host->n, launch.overlap,
-                       static_cast<const int *>(s.cell.get()), static_cast<const std::uint8_t *>(released_.get()),
-                       s.state.get()));
+    for (std::uint8_t *state : {s.state.get(), s.state_before.get()})
+      if (s.cell.size() > 0 && state)
+        PetscCall(Launch(ReleaseKernel, Blocks(s.host->n, kBlock), kBlock, launch, s.host->n, launch.overlap,
+                         static_cast<const int *>(s.cell.get()), static_cast<const std::uint8_t *>(released_.get()),
+                         state));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -163,7 +163,7 @@ nlohmann::json Simulation::Summary() const {
   if (!restart_file_.empty()) s["restart"] = {{"file", restart_file_}, {"step", first_step_}, {"time", first_time_}};
   s["steps"] = steps_;
   s["time"] = time_;
-  s["wall"] = {{"setup", wall_setup_}, {"solve", wall_solve_}, {"output", wall_output_}};
+  s["wall"] = {{"setup", wall_setup_}, {"solve", wall_solve_}, {"output", wall_output_}, {"output_watch", wall_watch_}};
   for (const auto &[phase, seconds] : wall_phases_) s["wall"]["setup_" + phase] = seconds;
   for (const auto &[phase, seconds] : solve_phases_) s["wall"]["solve_" + phase] = seconds;
   s["element_steps_per_second"] = wall_solve_ > 0 ? n * static_cast<double>(steps_ - first_step_) / wall_solve_ : 0;

@@ -149,9 +149,9 @@ class Simulation final : public Stepper {
   std::vector<double> held_;  // [n_owned][3] N
 
   // relaxation
-  std::unique_ptr<Relaxation> relaxation_;      // NULL in dynamic stages
-  double alpha_ = 0, local_ = 0;                // damping by mass now [1/s], and of nodes
-  RelaxMemory to_keep_;                         // after the last regular check, for checkpoints
+  std::unique_ptr<Relaxation> relaxation_;  // NULL in dynamic stages
+  double alpha_ = 0, local_ = 0;            // damping by mass now [1/s], and of nodes
+  RelaxMemory to_keep_;                     // after the last regular check, for checkpoints
   bool balanced_ = false;
   std::string failure_;  // why the run ended early; "": it did not
 
@@ -195,6 +195,7 @@ class Simulation final : public Stepper {
   // figures of the run
   std::vector<std::pair<std::string, double>> wall_phases_;  // of the set-up
   double wall_setup_ = 0, wall_solve_ = 0, wall_output_ = 0, wall_start_ = 0;
+  double wall_watch_ = 0;  // of wall_output_: observations and monitors
   std::int64_t n_cells_[kShapes] = {0, 0, 0}, n_interface_faces_ = 0, n_springs_ = 0, n_breakable_ = 0;
   PetscInt steps_ = 0;
   double time_ = 0;

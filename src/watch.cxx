@@ -78,6 +78,7 @@ PetscErrorCode Simulation::Watch(PetscInt step, double time) {
     sight.wall = MPI_Wtime() - wall_start_ - wall_output_;
     PetscCall(monitors_.Print(sight, reached, last));
   }
+  wall_watch_ += MPI_Wtime() - begin;
   if (frame) PetscCall(WriteFrame(step, time));
   if (checkpoint) PetscCall(WriteCheckpoint(step));
   wall_output_ += MPI_Wtime() - begin;

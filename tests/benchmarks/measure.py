@@ -85,7 +85,7 @@ class Machine:
         finally:
             if not keep:
                 shutil.rmtree(self.out, ignore_errors=True)
-        at_work = sum(summary["wall"].values())
+        at_work = sum(summary["wall"][part] for part in ("setup", "solve", "output"))
         return {**summary["wall"], "wall": wall, "cpu": cpu, "peak_bytes": peak,
                 "share": min(1.0, (cpu - self.start_cpu) / at_work), "summary": summary}
 

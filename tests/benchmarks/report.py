@@ -77,7 +77,7 @@ def command(case, about):
 
 
 def ts(case):
-    text = ("## Cost of TS\n"
+    text = (f"## Cost of TS, way {case['way']}\n"
             "The brick without histories, in batches (`-ts_central_batch`) of several lengths; a turn runs every length.\n"
             "What a batch costs holds all that is done once a batch: TS itself, the event log, the check for unstable\n"
             "motion and, on a GPU, launches, copies and the wait for its end.\n\n"
@@ -134,8 +134,9 @@ def page(device, content):
         text += scenes(rows, device == "cpu")
     if "brick" in by_name:
         text += command(by_name["brick"], about)
-    if "ts" in by_name:
-        text += ts(by_name["ts"])
+    for case in good:
+        if "points" in case:
+            text += ts(case)
     if "setup" in by_name:
         text += setup(by_name["setup"])
     if any("forms" in c for c in good):

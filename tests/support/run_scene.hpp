@@ -193,7 +193,8 @@ inline std::vector<std::string> FormScenes() {
 }
 
 /// A run on all ranks against the same run on each rank by itself: the same to the last bit.
-inline void ExpectRanksDoNotMatter(const std::string &options) {
+inline void ExpectRanksDoNotMatter(const std::string &scene) {
+  const std::string options = scene + " -deterministic";
   const SceneResult alone = RunScene(options, PETSC_COMM_SELF, true),
                     together = RunScene(options, PETSC_COMM_WORLD, true);
   ASSERT_FALSE(alone.failed || together.failed);

@@ -1,7 +1,6 @@
 """Structured meshes of hexahedra or tetrahedra with named regions and surfaces, and those of .geo files, written by gmsh."""
 import itertools
 
-import gmsh
 import numpy as np
 
 # Corners of the six faces of a gmsh hexahedron whose corners are numbered z, y, x.
@@ -49,6 +48,8 @@ def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda
                         if label is not None:
                             cut = [[corners[c] for c in part if c in local] for part in parts]
                             faces.setdefault(label, []).extend([f for f in cut if len(f) == 3] if tetrahedra else [face])
+    import gmsh  # here: what makes no mesh runs without it
+
     gmsh.initialize()
     try:
         gmsh.option.setNumber("General.Terminal", 0)
@@ -75,6 +76,8 @@ def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda
 
 def from_geo(path, geo, **numbers):
     """Meshes a .geo file, with other values of the numbers that it declares by DefineConstant."""
+    import gmsh
+
     gmsh.initialize(["gmsh", "-v", "0", *(word for name, value in numbers.items() for word in ("-setnumber", name, str(value)))])
     try:
         gmsh.open(str(geo))
