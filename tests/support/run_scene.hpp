@@ -106,7 +106,7 @@ inline SceneResult RunScene(const std::string &options, MPI_Comm comm = PETSC_CO
 
 /// True when both are equal to the last bit.
 inline bool SameBits(const std::vector<double> &a, const std::vector<double> &b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
 /// max |a - b| / max |b|.
