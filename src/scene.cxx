@@ -63,7 +63,8 @@ static PetscErrorCode ReadTime(Options &options, Scene *scene) {
 }
 
 static PetscErrorCode ReadScene(Options &options, const Mesh &mesh, const std::vector<std::string> &interfaces,
-                                Scene *scene, std::vector<std::string> *remarks) {
+                                const std::vector<std::vector<RegionPair>> &sides, Scene *scene,
+                                std::vector<std::string> *remarks) {
   PetscFunctionBeginUser;
   std::string solve = "dynamic";
   PetscCall(options.Word("solve", &solve));
@@ -71,7 +72,7 @@ static PetscErrorCode ReadScene(Options &options, const Mesh &mesh, const std::v
   if (!scene->name.empty()) PetscCall(ReadStage(options, mesh, scene));
   const StrengthChange change{scene->strength_factor, scene->intact};
   PetscCall(ReadMaterials(options, mesh.regions, change, &scene->materials, remarks));
-  PetscCall(ReadJoints(options, interfaces, change, &scene->joints, remarks));
+  PetscCall(ReadJoints(options, interfaces, {mesh.regions, scene->materials, sides}, change, &scene->joints, remarks));
   PetscCall(ReadTables(options, &scene->table_names, &scene->tables));
   PetscCall(ReadBoundaries(mesh, options, scene->table_names, &scene->boundaries));
   PetscCall(options.Reals("gravity", 3, scene->gravity));
@@ -126,13 +127,16 @@ static PetscErrorCode CarryOffsets(const Mesh &mesh, std::vector<Scene> *scenes)
 }
 
 PetscErrorCode ReadScenes(Options &options, const Mesh &mesh, const std::vector<std::string> &interfaces,
-                          std::vector<Scene> *scenes, std::vector<std::string> *remarks) {
+                          const std::vector<int> &face_interface, std::vector<Scene> *scenes,
+                          std::vector<std::string> *remarks) {
   PetscFunctionBeginUser;
   std::vector<std::string> names, said;
   bool staged;
   PetscCall(options.Names("stages", &names, &staged));
   options.Declare("stage", names);
   if (names.empty()) names = {""};
+  std::vector<std::vector<RegionPair>> sides;
+  PetscCall(FindSides(mesh, face_interface, interfaces.size(), &sides));
   Scene before;
   before.removed.assign(mesh.regions.size(), 0);
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -141,7 +145,7 @@ PetscErrorCode ReadScenes(Options &options, const Mesh &mesh, const std::vector<
     scene.removed = before.removed;
     scene.strength_factor = before.strength_factor;
     if (staged) options.SetStages({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i) + 1});
-    PetscCall(ReadScene(options, mesh, interfaces, &scene, &said));
+    PetscCall(ReadScene(options, mesh, interfaces, sides, &scene, &said));
     const auto drops = [](const Boundary &b) { return b.lets_go && !b.keeps_reactions; };
     if (i == 0 || std::any_of(scene.boundaries.begin(), scene.boundaries.end(), drops))
       RemarkUnheldWeight(scene.boundaries, scene.gravity, &said);

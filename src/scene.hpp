@@ -30,8 +30,10 @@ struct Scene {
 };
 
 /// Reads -stages and what every one of them says; a run without stages is one of them, without a name (collective).
+/// [in] interfaces: their names; face_interface: which of them has each face of the mesh, -1: none.
 /// Remarks come once. Errors: all that a value, a name or a combination can have wrong.
 PetscErrorCode ReadScenes(Options &options, const Mesh &mesh, const std::vector<std::string> &interfaces,
-                          std::vector<Scene> *scenes, std::vector<std::string> *remarks);
+                          const std::vector<int> &face_interface, std::vector<Scene> *scenes,
+                          std::vector<std::string> *remarks);
 
 }  // namespace cdem

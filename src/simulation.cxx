@@ -78,7 +78,7 @@ PetscErrorCode Simulation::ReadInput() {
   PetscCall(CreateJointSets(mesh_, options_, &joint_sets_, &joint_faces, &remarks_));
   Phase("scene");
   PetscCall(SelectInterfaces(mesh_, options_, joint_faces, &interface_names_, &face_interface_));
-  PetscCall(ReadScenes(options_, mesh_, interface_names_, &scenes_, &remarks_));
+  PetscCall(ReadScenes(options_, mesh_, interface_names_, face_interface_, &scenes_, &remarks_));
   CdemCheck(first_stage_ < scenes_.size(), comm_,
             "%s is of stage number %zu, and there are %zu: the stages up to that of a checkpoint must be the same",
             restart_file_.c_str(), first_stage_ + 1, scenes_.size());

@@ -27,7 +27,7 @@ void Widen(const Mesh &mesh, const std::vector<Material> &materials, const Joint
   });
 }
 
-/// What is wrong with the scattered strength of a face whose springs have this stiffness per area, or "".
+/// What is wrong with the own strength of a face whose springs have this stiffness per area, or "".
 std::string WrongAt(const Joint &joint, const double *property, double kn, double ks) {
   std::string wrong;
   JointLaws::Visit(joint.law, [&](auto law) {
@@ -59,7 +59,8 @@ PetscErrorCode CheckJoints(const Mesh &mesh, const std::vector<std::string> &nam
       Widen(mesh, materials, joint, mesh.faces[t.face[i]], property, &range);
       if (!HasOwnParams(joint) || !failure.empty()) continue;
       failure = WrongAt(joint, property, t.kn[i] / t.area[i], t.ks[i] / t.area[i]);
-      if (!failure.empty()) failure = "interface '" + names[id] + "', as its properties scatter: " + failure;
+      const char *why = joint.scatter.any ? "as its properties scatter" : "with the strengths of the blocks beside it";
+      if (!failure.empty()) failure = "interface '" + names[id] + "', " + why + ": " + failure;
     }
   PetscCall(CheckFailure(mesh.comm, failure));
   PetscCallMPI(

@@ -101,16 +101,18 @@ static std::uint64_t FaceNumber(const Mesh &mesh, const Face &face) {
   return static_cast<std::uint64_t>(mesh.cell_global[face.cell[0]]) * kMaxFaces + face.local[0];
 }
 
-bool HasOwnParams(const Joint &joint) { return joint.scatter.any; }
+bool HasOwnParams(const Joint &joint) { return joint.scatter.any || !joint.of_sides.empty(); }
 
 void FaceProperties(const Mesh &mesh, const Joint &joint, const Face &face, double *property) {
-  std::copy_n(joint.property, kMaxProperties, property);
+  const double *mean = joint.property;
+  if (!joint.of_sides.empty()) mean = joint.of_sides.at(SidesOf(mesh, face)).data();
+  std::copy_n(mean, kMaxProperties, property);
   if (!joint.scatter.any) return;
   JointLaws::Visit(joint.law, [&](auto law) {
     const auto &list = decltype(law)::kProperties;
     for (std::size_t i = 0; i < list.size(); ++i)
-      property[i] = ScatteredValue(joint.scatter.of[i], list[i], joint.property[i], 1, joint.scatter.seed,
-                                   FaceNumber(mesh, face));
+      property[i] =
+          ScatteredValue(joint.scatter.of[i], list[i], mean[i], 1, joint.scatter.seed, FaceNumber(mesh, face));
     decltype(law)::Adjust(property);
   });
 }

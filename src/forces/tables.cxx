@@ -135,10 +135,14 @@ void FaceStiffness(const Mesh &mesh, const std::vector<Material> &materials, con
   if (*ks < 0) *ks = b_over_h * std::min(m0[1], m1[1]);
 }
 
-/// A row of parameters for a face whose properties scatter.
-int AddFaceRow(const Mesh &mesh, const Joint &joint, const Face &face, Tables *tables) {
+/// A row of parameters for a face that has its own; faces that follow each other share equal ones. [in] first: the rows of
+/// the interfaces come before it.
+int AddFaceRow(const Mesh &mesh, const Joint &joint, const Face &face, std::size_t first, Tables *tables) {
   double param[kMaxParams];
   FaceParams(mesh, joint, face, param);
+  const std::size_t rows = tables->joint_param.size() / kMaxParams;
+  if (rows > first && std::equal(param, param + kMaxParams, tables->joint_param.end() - kMaxParams))
+    return static_cast<int>(rows) - 1;
   tables->joint_param.insert(tables->joint_param.end(), param, param + kMaxParams);
   return static_cast<int>(tables->joint_param.size() / kMaxParams) - 1;
 }
@@ -168,7 +172,7 @@ void BuildSprings(const Mesh &mesh, const Nodes &nodes, const std::vector<int> &
           FaceVectors(size, x, area);
           FaceStiffness(mesh, materials, joint, face, &kn, &ks);
           ScatterStiffness(mesh, joint, face, &kn, &ks);
-          if (HasOwnParams(joint)) row = AddFaceRow(mesh, joint, face, tables);
+          if (HasOwnParams(joint)) row = AddFaceRow(mesh, joint, face, joints.size(), tables);
           measured = true;
         }
         const double size_j = std::sqrt(Dot(area[j], area[j]));

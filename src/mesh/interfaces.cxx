@@ -4,6 +4,8 @@
 #include "core/options.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <set>
 
 namespace cdem {
 
@@ -116,6 +118,36 @@ PetscErrorCode SelectInterfaces(const Mesh &mesh, Options &options, const std::v
               "interface '%s' has no face left: later interfaces claim all of its faces; leave it out",
               (*names)[i].c_str());
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+RegionPair SidesOf(const Mesh &mesh, const Face &face) {
+  const int a = mesh.cell_region[face.cell[0]], b = mesh.cell_region[face.cell[1]];
+  return {std::min(a, b), std::max(a, b)};
+}
+
+PetscErrorCode FindSides(const Mesh &mesh, const std::vector<int> &face_interface, std::size_t n,
+                         std::vector<std::vector<RegionPair>> *sides) {
+  PetscFunctionBeginUser;
+  std::set<std::array<int, 3>> found;  // interface, regions
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (face_interface[f] < 0 || mesh.faces[f].cell[1] < 0) continue;
+    const RegionPair pair = SidesOf(mesh, mesh.faces[f]);
+    found.insert({face_interface[f], pair[0], pair[1]});
+  }
+  std::vector<int> mine, all;
+  for (const std::array<int, 3> &row : found) mine.insert(mine.end(), row.begin(), row.end());
+  PetscMPIInt ranks, count = static_cast<PetscMPIInt>(mine.size());
+  PetscCallMPI(MPI_Comm_size(mesh.comm, &ranks));
+  std::vector<PetscMPIInt> counts(ranks), starts(ranks + 1, 0);
+  PetscCallMPI(MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, mesh.comm));
+  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+  all.resize(starts[ranks]);
+  PetscCallMPI(
+      MPI_Allgatherv(mine.data(), count, MPI_INT, all.data(), counts.data(), starts.data(), MPI_INT, mesh.comm));
+  for (std::size_t i = 0; i < all.size(); i += 3) found.insert({all[i], all[i + 1], all[i + 2]});
+  sides->assign(n, {});
+  for (const std::array<int, 3> &row : found) (*sides)[row[0]].push_back({row[1], row[2]});
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

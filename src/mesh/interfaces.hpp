@@ -19,6 +19,14 @@ struct FaceSet {
 PetscErrorCode SelectInterfaces(const Mesh &mesh, Options &options, const std::vector<FaceSet> &joints,
                                 std::vector<std::string> *names, std::vector<int> *face_interface);
 
+/// The regions on both sides of a face, the lower number first.
+using RegionPair = std::array<int, 2>;
+RegionPair SidesOf(const Mesh &mesh, const Face &face);
+
+/// The pairs of regions beside each of n interfaces, in order, the same on every rank (collective).
+PetscErrorCode FindSides(const Mesh &mesh, const std::vector<int> &face_interface, std::size_t n,
+                         std::vector<std::vector<RegionPair>> *sides);
+
 /// "a, b, c" for messages.
 std::string Joined(const std::vector<std::string> &names);
 

@@ -21,11 +21,9 @@ struct BrittleLaw : StrengthLawDefaults {
   static constexpr int kState = kDilates ? 5 : 3;
 
   static constexpr std::array<Property, 5> kProperties = {
-      {{"tension", "Pa", 0, kPropertyInf, kPropertyClosed, "tensile strength"},
-       kCohesionProperty,
-       kFrictionProperty,
-       kDilationProperties[0],
-       kDilationProperties[1]}};
+      {StrengthProperty(kStrengthTension, "Pa", kPropertyInf, kPropertyClosed, "tensile strength"),
+       StrengthProperty(kStrengthCohesion, "Pa", kPropertyInf, kPropertyClosed, "cohesion"), kJointFriction,
+       kDilationProperties[0], kDilationProperties[1]}};
   static bool Serves(const double *property) { return (property[kStrengthDilation] > 0) == kDilates; }
 
   static void Derive(const double *property, double *param) {

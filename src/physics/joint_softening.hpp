@@ -21,9 +21,9 @@ struct SofteningLaw : StrengthLawDefaults {
 
   enum { kGI = kStrengthDilationSlip + 1, kGII };
   static constexpr std::array<Property, 7> kProperties = {
-      {{"tension", "Pa", 0, kPropertyInf, kPropertyOpen, "tensile strength"},
-       {"cohesion", "Pa", 0, kPropertyInf, kPropertyOpen, "cohesion"},
-       kFrictionProperty,
+      {StrengthProperty(kStrengthTension, "Pa", kPropertyInf, kPropertyOpen, "tensile strength"),
+       StrengthProperty(kStrengthCohesion, "Pa", kPropertyInf, kPropertyOpen, "cohesion"),
+       kJointFriction,
        kDilationProperties[0],
        kDilationProperties[1],
        {"gi", "J/m^2", 0, kPropertyInf, kPropertyOpen, "fracture energy in tension"},

@@ -6,8 +6,15 @@
 
 namespace cdem {
 
-/// The first properties of a law with strength, in this order.
-enum { kStrengthTension, kStrengthCohesion, kStrengthFriction, kStrengthDilation, kStrengthDilationSlip };
+/// The properties after those that blocks may give.
+enum { kStrengthDilation = kStrengths, kStrengthDilationSlip };
+
+/// A strength that comes from the blocks where it is not given.
+constexpr Property StrengthProperty(int which, const char *unit, double high, PropertyBounds bounds, const char *text) {
+  return {kStrengthKeys[which], unit, 0, high, bounds, text, kRequired, "", "that of the weaker block"};
+}
+inline constexpr Property kJointFriction =
+    StrengthProperty(kStrengthFriction, "degrees", 89.9, kPropertyClosed, "angle of friction");
 
 inline constexpr Property kDilationProperties[] = {
     {"dilation", "degrees", 0, 89.9, kPropertyClosed, "angle of dilation: sliding opens the joint by its tangent", 0},
@@ -16,6 +23,7 @@ inline constexpr Property kDilationProperties[] = {
 inline double TanOfDegrees(double angle) { return std::tan(angle * kDegree); }
 
 struct StrengthLawDefaults : JointLawDefaults {
+  static constexpr std::size_t kFromBlocks = kStrengths;
   enum { kTension, kCohesion, kTanPhi, kStrengthParams };  ///< the first parameters: Pa, Pa, -
 
   /// Joints that dilate by more than their friction angle would gain energy by sliding.

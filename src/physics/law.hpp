@@ -72,6 +72,7 @@ struct JointLawDefaults {
   static constexpr bool kHistory = true;          ///< has a state byte a spring
   static constexpr int kState = 0;                ///< doubles of history a spring; all zero at the start
   static constexpr bool kMayKeepTension = false;  ///< asks for keep_tension, its parameter kKeepTension
+  static constexpr std::size_t kFromBlocks = 0;   ///< its first properties, strengths; not given: the weaker block's
   /// The history holds a slip kSlip [3] and an opening kGap [m] that make no force: references of a spring that was under
   /// force from the start, or of another stiffness before.
   static constexpr bool kCarriesOffset = false;

@@ -1,10 +1,7 @@
 #include "physics/materials.hpp"
 
-#include "core/error.hpp"
-#include "core/option_names.hpp"
-#include "core/options.hpp"
 #include "physics/laws.hpp"
-#include "physics/strength.hpp"
+#include "physics/read_law.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,15 +12,6 @@ void DeriveBlock(const Material &material, const double *property, double size, 
   BlockLaws::Visit(material.law, [&](auto law) {
     decltype(law)::Derive(property, size, param);
     if (material.intact) decltype(law)::MakeIntact(param);
-  });
-}
-
-void DeriveJoint(const Joint &joint, const double *property, double *param) {
-  JointLaws::Visit(joint.law, [&](auto law) {
-    using Law = decltype(law);
-    Law::Derive(property, param);
-    if (joint.intact) Law::MakeIntact(param);
-    if constexpr (Law::kMayKeepTension) param[Law::kKeepTension] = joint.keeps_tension;
   });
 }
 
@@ -46,32 +34,8 @@ PetscErrorCode CarryOffset(MPI_Comm comm, const std::string &region, Material *m
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void CarryOffset(Joint *joint) {
-  joint->law = JointLaws::Carrier(joint->law);
-  std::fill_n(joint->param, kMaxParams, 0.0);
-  DeriveJoint(*joint, joint->property, joint->param);
-}
-
-/// Divides strengths, and the tangents of angles of friction; dilation stays, but not above the friction.
-template <class Law>
-static void DivideStrength(double factor, double *property) {
-  if (factor == 1) return;
-  double friction = kPropertyInf;
-  for (std::size_t i = 0; i < Law::kProperties.size(); ++i) {
-    const std::string key = Law::kProperties[i].key;
-    if (key == "cohesion" || key == "tension" || key == "residual_cohesion" || key == "residual_tension")
-      property[i] /= factor;
-    if ((key == "friction" || key == "residual_friction") && std::isfinite(property[i]))
-      property[i] = std::atan(std::tan(property[i] * kDegree) / factor) / kDegree;
-    if (key == "friction") friction = property[i];
-  }
-  for (std::size_t i = 0; i < Law::kProperties.size(); ++i)
-    if (std::string(Law::kProperties[i].key) == "dilation") property[i] = std::min(property[i], friction);
-}
-
-/// Reads one property of a law and checks its range.
-static PetscErrorCode ReadProperty(Options &options, const std::string &family, const std::string &name,
-                                   const Property &property, double *value) {
+PetscErrorCode ReadProperty(Options &options, const std::string &family, const std::string &name,
+                            const Property &property, double *value, bool *missing) {
   PetscFunctionBeginUser;
   const OptionKey key(family, name, property.key);
   if (*property.words) {
@@ -84,7 +48,9 @@ static PetscErrorCode ReadProperty(Options &options, const std::string &family, 
   bool set;
   *value = property.fallback;
   PetscCall(options.Real(key, value, &set));
-  CdemCheck(set || !std::isnan(property.fallback), options.comm(), "%s '%s' has no %s: give %s%s%s",
+  const bool lacks = !set && std::isnan(property.fallback);
+  if (missing) *missing = lacks;
+  CdemCheck(!lacks || missing, options.comm(), "%s '%s' has no %s: give %s%s%s",
             family == "block" ? "region" : "interface", name.c_str(), property.key, Options::Spelled(key).c_str(),
             *property.unit ? " in " : "", property.unit);
   if (!set) PetscFunctionReturn(PETSC_SUCCESS);
@@ -96,49 +62,6 @@ static PetscErrorCode ReadProperty(Options &options, const std::string &family, 
   else
     CdemCheck(property.Allows(*value), options.comm(), "%s is %g; it must be %s %g and %s %g",
               Options::Spelled(key).c_str(), *value, left, property.low, right, property.high);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/// Reads all properties of a law and checks them together.
-template <class Law>
-static PetscErrorCode ReadLaw(Options &options, const std::string &family, const std::string &name, double *property) {
-  PetscFunctionBeginUser;
-  static_assert(Law::kProperties.size() <= kMaxProperties && Law::kParams <= kMaxParams, "raise the limit");
-  for (std::size_t i = 0; i < Law::kProperties.size(); ++i)
-    PetscCall(ReadProperty(options, family, name, Law::kProperties[i], &property[i]));
-  const std::string wrong = Law::Check(property);
-  CdemCheck(wrong.empty(), options.comm(), "%s '%s': %s", family == "block" ? "region" : "interface", name.c_str(),
-            wrong.c_str());
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/// Reads -<family>_<name>_<property>_scatter for the properties that can.
-template <std::size_t n>
-static PetscErrorCode ReadScatters(Options &options, const std::string &family, const std::string &name,
-                                   const std::array<Property, n> &properties, ScatterSet *scatter) {
-  PetscFunctionBeginUser;
-  PetscInt seed = 1;
-  PetscCall(options.Int("seed", &seed));
-  scatter->seed = seed;
-  for (std::size_t i = 0; i < n; ++i) {
-    bool set = false;
-    if (Scatters(properties[i]))
-      PetscCall(
-          ReadScatter(options, {family, name, std::string(properties[i].key) + "_scatter"}, &scatter->of[i], &set));
-    scatter->any = scatter->any || set;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-template <class List>
-static PetscErrorCode ReadLawName(Options &options, const std::string &family, const std::string &name, int *law) {
-  PetscFunctionBeginUser;
-  const OptionKey key(family, name, "law");
-  std::string word = "elastic";
-  PetscCall(options.Word(key, &word));
-  *law = List::Find(word);
-  CdemCheck(*law >= 0, options.comm(), "%s: there is no law '%s'; the laws are: %s", Options::Spelled(key).c_str(),
-            word.c_str(), List::Names().c_str());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -170,6 +93,19 @@ static PetscErrorCode ReadStress(Options &options, const std::string &region, Ma
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/// What a region's law offers to interfaces that have no strengths of their own. A tensile strength counts up to the apex
+/// of Mohr-Coulomb's surface.
+template <class Law>
+static void OfferStrength(const double *property, double *strength) {
+  std::fill_n(strength, kStrengths, kPropertyInf);
+  for (std::size_t i = 0; i < Law::kProperties.size(); ++i)
+    for (int k = 0; k < kStrengths; ++k)
+      if (std::string(Law::kProperties[i].key) == kStrengthKeys[k]) strength[k] = property[i];
+  const double cohesion = strength[kStrengthCohesion], friction = strength[kStrengthFriction];
+  if (std::isfinite(cohesion) && std::isfinite(friction))
+    strength[kStrengthTension] = std::min(strength[kStrengthTension], MohrCoulombApex(cohesion, friction));
+}
+
 PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions, const StrengthChange &change,
                              std::vector<Material> *materials, std::vector<std::string> *remarks) {
   PetscFunctionBeginUser;
@@ -184,6 +120,7 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
     std::string remark;
     BlockLaws::Visit(material.law, [&](auto law) {
       ierr = ReadLaw<decltype(law)>(options, "block", regions[r], material.property);
+      OfferStrength<decltype(law)>(material.property, material.strength);
       DivideStrength<decltype(law)>(change.factor, material.property);
       remark = decltype(law)::Remark(material.property);
     });
@@ -205,62 +142,6 @@ PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &r
     bool breaks = false;
     BlockLaws::Visit(material.law, [&](auto law) { breaks = decltype(law)::kJudgesMean; });
     if (breaks) PetscCall(options.Flag({"block", regions[r], "release_interfaces"}, &material.releases));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/// What an interface has besides properties, and its parameters.
-template <class Law>
-static PetscErrorCode FinishJoint(Options &options, const std::string &name, Joint *joint,
-                                  std::vector<std::string> *remarks) {
-  PetscFunctionBeginUser;
-  const std::string adjusted = Law::Adjust(joint->property);
-  if (!adjusted.empty()) remarks->push_back("interface " + name + ": " + adjusted);
-  if constexpr (Law::kHistory) {
-    std::string initial = "intact";
-    PetscCall(options.Word({"interface", name, "initial"}, &initial));
-    joint->broken = initial == "broken";
-  }
-  if constexpr (Law::kMayKeepTension) {
-    PetscCall(options.Flag({"interface", name, "keep_tension"}, &joint->keeps_tension));
-  }
-  DeriveJoint(*joint, joint->property, joint->param);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &names, const StrengthChange &change,
-                          std::vector<Joint> *joints, std::vector<std::string> *remarks) {
-  PetscFunctionBeginUser;
-  joints->assign(names.size(), Joint());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    Joint &joint = (*joints)[i];
-    const std::string &name = names[i];
-    PetscCall(ReadLawName<JointLaws>(options, "interface", name, &joint.law));
-    const std::pair<const char *, double *> stiffness[] = {
-        {"kn", &joint.kn}, {"ks", &joint.ks}, {"stiffness_factor", &joint.stiffness_factor}};
-    for (const auto &[key, value] : stiffness) {
-      bool set;
-      PetscCall(options.Real({"interface", name, key}, value, &set));
-      CdemCheck(!set || *value > 0, options.comm(), "%s is %g; it must be above 0",
-                Options::Spelled({"interface", name, key}).c_str(), *value);
-    }
-    PetscErrorCode ierr = PETSC_SUCCESS;
-    JointLaws::Visit(joint.law, [&](auto law) {
-      ierr = ReadLaw<decltype(law)>(options, "interface", name, joint.property);
-      DivideStrength<decltype(law)>(change.factor, joint.property);
-    });
-    PetscCall(ierr);
-    joint.intact = change.intact;
-    joint.law = JointLaws::Choose(joint.law, joint.property);
-    JointLaws::Visit(joint.law, [&](auto law) { ierr = FinishJoint<decltype(law)>(options, name, &joint, remarks); });
-    PetscCall(ierr);
-    JointLaws::Visit(joint.law, [&](auto law) {
-      ierr = ReadScatters(options, "interface", name, decltype(law)::kProperties, &joint.scatter);
-    });
-    PetscCall(ierr);
-    bool set;
-    PetscCall(ReadScatter(options, {"interface", name, "kn_scatter"}, &joint.stiffness_scatter[0], &set));
-    PetscCall(ReadScatter(options, {"interface", name, "ks_scatter"}, &joint.stiffness_scatter[1], &set));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,15 +1,20 @@
 // The numbers of every region and interface, read from the options and checked.
 #pragma once
 #include "core/petsc.hpp"
+#include "mesh/interfaces.hpp"
 #include "physics/law.hpp"
 #include "physics/scatter.hpp"
+#include "physics/strength.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
 namespace cdem {
 
 class Options;
+
+using PropertyRow = std::array<double, kMaxProperties>;
 
 /// A region's law and its numbers.
 struct Material {
@@ -18,6 +23,7 @@ struct Material {
   double density = 0;                       ///< kg/m^3
   double property[kMaxProperties] = {};     ///< in the order of the law's kProperties
   double param[kMaxParams] = {};            ///< of an element of size 1 m
+  double strength[kStrengths] = {};         ///< for interfaces, before any strength factor; infinite: it has none
   bool releases = false;                    ///< an element that breaks breaks the springs of its faces
   bool intact = false;                      ///< nothing fails
   bool restiffened = false;                 ///< its law or stiffness is another one than in an earlier stage
@@ -38,6 +44,8 @@ struct Joint {
   bool keeps_tension = false;            ///< after a failure in shear
   double property[kMaxProperties] = {};  ///< in the order of the law's kProperties
   double param[kMaxParams] = {};
+  /// Where strengths that come from the blocks differ: the properties by the regions beside a face; else empty.
+  std::map<RegionPair, PropertyRow> of_sides;
   ScatterSet scatter;            ///< of the properties
   Scatter stiffness_scatter[2];  ///< of kn and ks
 };
@@ -57,9 +65,17 @@ struct StrengthChange {
 PetscErrorCode ReadMaterials(Options &options, const std::vector<std::string> &regions, const StrengthChange &change,
                              std::vector<Material> *materials, std::vector<std::string> *remarks = nullptr);
 
-/// Reads -interface_<name>_*; remarks receives what was changed (a tension above cohesion / tan(phi) is cut to it).
-PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &names, const StrengthChange &change,
-                          std::vector<Joint> *joints, std::vector<std::string> *remarks);
+/// What lies beside the interfaces.
+struct Neighbours {
+  const std::vector<std::string> &regions;
+  const std::vector<Material> &materials;             ///< of the regions
+  const std::vector<std::vector<RegionPair>> &sides;  ///< of each interface
+};
+
+/// Reads -interface_<name>_*. A strength that is not given is the smaller of the two blocks' at each face. remarks receives
+/// what was taken from blocks, and what was changed (a tension above cohesion / tan(phi) is cut to it).
+PetscErrorCode ReadJoints(Options &options, const std::vector<std::string> &names, const Neighbours &blocks,
+                          const StrengthChange &change, std::vector<Joint> *joints, std::vector<std::string> *remarks);
 
 /// Takes the law of the same name that carries an offset. Error: the form cannot change its stiffness without a jump.
 PetscErrorCode CarryOffset(MPI_Comm comm, const std::string &region, Material *material);

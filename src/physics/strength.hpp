@@ -10,6 +10,10 @@ namespace cdem {
 inline constexpr double kDegree = 3.14159265358979323846 / 180;
 inline constexpr double kNoTensionLimit = 1e30;  ///< Pa; a cut-off that nothing reaches
 
+/// Strengths that an interface may take from the blocks beside it; the first properties of an interface law that has them.
+enum { kStrengthTension, kStrengthCohesion, kStrengthFriction, kStrengths };
+inline constexpr const char *kStrengthKeys[kStrengths] = {"tension", "cohesion", "friction"};
+
 inline constexpr Property kCohesionProperty = {"cohesion", "Pa", 0, kPropertyInf, kPropertyClosed, "cohesion"};
 inline constexpr Property kFrictionProperty = {"friction", "degrees", 0, 89.9, kPropertyClosed, "angle of friction"};
 inline constexpr Property kDilationProperty = {

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from test_errors import DROP, JOINTS, SPRINGS, assert_refused, changed, harness, text_of  # noqa: E402
+from test_errors import DROP, JOINTS, MOHR, SPRINGS, assert_refused, changed, harness, text_of  # noqa: E402
 
 SOFT = {**JOINTS, "interface_joints_law": "softening", "interface_joints_gi": 50.0, "interface_joints_gii": 200.0}
 DILATING = {"interface_joints_dilation": 30.0, "interface_joints_dilation_slip": 1e-3}
@@ -17,6 +17,14 @@ OPTIONS = {
     "fracture energy negative": ({**SOFT, "interface_joints_gi": -5.0}, ["-interface_joints_gi", "-5"]),
     "fracture energy of a law without": ({**JOINTS, "interface_joints_gi": 5.0}, ["-interface_joints_gi"]),
     "softening without tension": ({**SOFT, "interface_joints_tension": 0.0}, ["-interface_joints_tension", "0", "above"]),
+    "strength that the blocks have not either": ({**JOINTS, "interface_joints_cohesion": DROP},
+                                                 ["joints", "no cohesion", "-interface_joints_cohesion", "Pa", "box"]),
+    "tension that the blocks do not limit": ({**JOINTS, **MOHR, "block_friction": 0.0, "interface_joints_tension": DROP},
+                                             ["joints", "no tension", "-interface_joints_tension", "box"]),
+    "tension zero of the blocks of a softening law": ({**SOFT, **MOHR, "block_tension": 0.0, "interface_joints_tension": DROP},
+                                                      ["joints", "tension", "0", "box"]),
+    "dilation above the blocks' friction": ({**JOINTS, **MOHR, "interface_joints_friction": DROP, "interface_joints_dilation": 31.0},
+                                            ["joints", "blocks", "dilation", "31", "friction", "30"]),
     "tension kept by a law that has one damage": ({**SOFT, "interface_joints_keep_tension": None}, ["-interface_joints_keep_tension"]),
     # k_n = 20 (lambda + 2 mu)/h = 2.4e10, k_s = 8e9 Pa/m: sqrt(2 gi k_n) = 1.54919e6 Pa, sqrt(2 gii k_s) = 1.78885e6 Pa
     "tension above gi": ({**SOFT, "interface_joints_tension": 1.56e6, "interface_joints_cohesion": 1.7e6},
