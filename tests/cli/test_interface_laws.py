@@ -77,6 +77,14 @@ def test_cells_too_large_for_softening_are_said(gi, scatter, said, tmp_path):
     assert not said or all(word in lines[0] for word in ("joints", "2 times", "l_ch")), lines
 
 
+def test_cells_too_large_by_the_blocks_tension_are_said(tmp_path):
+    """Likewise where the tension is that of the blocks."""
+    scene = {**SOFT, **MOHR, "block_tension": 1e5, "interface_joints_gi": 25.0, "interface_joints_tension": DROP}
+    done = harness.call(tmp_path, changed(scene))
+    assert done.returncode == 0, text_of(done)
+    assert "up to 2 times too large for its softening" in text_of(done), text_of(done)
+
+
 def test_blocks_of_springs_count_as_broken_blocks(tmp_path):
     """A box whose top is drawn away by ten times the strain it bears: every block breaks."""
     pulled = {**SPRINGS, "mesh_box_cells": (2, 2, 1), "gravity": (0, 0, 0), "boundaries": ("zmin", "zmax"),
