@@ -187,7 +187,7 @@ PetscErrorCode Simulation::OpenOutput() {
   PetscCall(WriteJointSets());
   PetscCall(recorder_.Open(comm_, output_dir_, histories_, goes_on_));
   if (!origin_.empty()) PetscCall(recorder_.SetOrigin(origin_.data()));
-  fields_.Open(output_dir_, mesh_, nodes_, tables_, face_interface_, with_plastic_, with_broken_);
+  fields_.Open(output_dir_, mesh_, nodes_, tables_, face_interface_, of_laws_);
   PetscCall(WriteMeshes());
   if (!goes_on_) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(fields_.Continue(&earlier_));

@@ -202,7 +202,7 @@ class Simulation final : public Stepper {
   Observed last_;
   Validity validity_;  // at the last frame or the end
   bool warned_slip_ = false, warned_rotation_ = false;
-  bool with_plastic_ = false, with_broken_ = false;  // fields of some stage
+  LawFields of_laws_;  // of some stage
   nlohmann::json stage_summaries_ = nlohmann::json::array();
   double wall_stages_ = 0;
   double stage_begin_ = 0, output_before_ = 0;    // when the stage began; wall_output_ by then

@@ -34,10 +34,7 @@ PetscErrorCode Simulation::BuildStage() {
   PetscCall(BuildRecords(mesh_, nodes_, scene.boundaries, scene.materials, removed, histories_, &tables_));
   PetscCall(input_.Begin(tables_));
   PetscCall(CountStage());
-  bool plastic, broken;
-  PetscCall(FindElementFields(tables_, &plastic, &broken));
-  with_plastic_ = with_plastic_ || plastic;
-  with_broken_ = with_broken_ || broken;
+  PetscCall(FindLawFields(tables_, &of_laws_));
   PetscCall(PetscLogEventEnd(events.tables, nullptr, nullptr, nullptr, nullptr));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -125,7 +125,7 @@ static std::vector<OptionSpec> &Registry() {
       {"output_overwrite", T::kFlag, "", "false", "replaces the results in the folder", ""},
       {"output_interval", T::kInt, "steps", "first and last step", "a frame of fields every so many steps", ""},
       {"output_interval_time", T::kReal, "s", "", "a frame of fields every so many seconds of the scene", ""},
-      {"output_fields", T::kNames, "", "all", "the fields of a frame", "displacement,velocity,stress,region,opening,slip,normal_stress,shear_stress,state,interface,plastic_strain,broken,broken_time"},
+      {"output_fields", T::kNames, "", "all", "the fields of a frame", "displacement,velocity,stress,region,opening,slip,normal_stress,shear_stress,state,interface,plastic_strain,broken,broken_time,damage"},
       {"checkpoint_interval", T::kInt, "steps", "none", "a file checkpoint_<step>.h5 in the folder every so many steps and at the end; the last two are kept", ""},
       {"checkpoint_interval_time", T::kReal, "s", "", "the same every so many seconds of the scene", ""},
       {"restart", T::kText, "", "", "starts from this checkpoint of the same scene; in its own folder (`-output`) histories and frames go on", ""},

@@ -38,25 +38,37 @@ double Mean(const Tables &tables, const ElementTable &t, int e, const double *va
 
 }  // namespace
 
-PetscErrorCode FindElementFields(const Tables &tables, bool *plastic, bool *breaks) {
+PetscErrorCode FindLawFields(const Tables &tables, LawFields *there) {
   PetscFunctionBeginUser;
-  int has[2] = {0, 0};
+  int has[3] = {there->plastic, there->broken, there->damage};
   for (const ElementTable &t : tables.elements) {
     BlockLaws::Visit(t.law, [&](auto law) { has[0] |= decltype(law)::kPlasticShear >= 0; });
     has[1] |= t.judged;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, has, 2, MPI_INT, MPI_MAX, tables.comm));
-  *plastic = has[0] != 0;
-  *breaks = has[1] != 0;
+  for (const SpringTable &t : tables.springs)
+    JointLaws::Visit(t.law, [&](auto law) { has[2] |= decltype(law)::kDamage >= 0; });
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, has, 3, MPI_INT, MPI_MAX, tables.comm));
+  *there = {has[0] != 0, has[1] != 0, has[2] != 0};
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+double DamageOf(const SpringTable &table, const SpringHistory &history, std::uint8_t state, int i) {
+  if (state & kCohesionLost) return 1;
+  double damage = 0;
+  JointLaws::Visit(table.law, [&](auto law) {
+    constexpr int number = decltype(law)::kDamage;
+    if constexpr (number >= 0)
+      if (history.state[i] != 0) damage = history.values[static_cast<std::size_t>(number) * table.n_pad + i];
+  });
+  return damage;
+}
+
 void FillElementFields(const Tables &tables, int n_owned_cells, const std::vector<ElementHistories> &history,
-                       bool plastic, bool breaks, ElementFields *fields) {
+                       const LawFields &wanted, ElementFields *fields) {
   const std::size_t n = static_cast<std::size_t>(n_owned_cells);
-  fields->plastic_strain.assign(plastic ? n : 0, 0.0);
-  fields->broken.assign(breaks ? n : 0, 0.0);
-  fields->broken_time.assign(breaks ? n : 0, std::numeric_limits<double>::quiet_NaN());
+  fields->plastic_strain.assign(wanted.plastic ? n : 0, 0.0);
+  fields->broken.assign(wanted.broken ? n : 0, 0.0);
+  fields->broken_time.assign(wanted.broken ? n : 0, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t g = 0; g < tables.elements.size(); ++g) {
     const ElementTable &t = tables.elements[g];
     const ElementHistories &h = history[g];

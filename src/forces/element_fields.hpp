@@ -11,11 +11,22 @@ struct ElementFields {
   std::vector<double> broken_time;     ///< s; NaN while intact
 };
 
-/// Laws of the scene that have such fields (collective).
-PetscErrorCode FindElementFields(const Tables &tables, bool *plastic, bool *breaks);
+/// Fields that only some laws have.
+struct LawFields {
+  bool plastic = false;  ///< plastic_strain
+  bool broken = false;   ///< broken, broken_time
+  bool damage = false;   ///< damage, of interfaces
+};
 
-/// [in] plastic, breaks: which fields to fill.
+/// [in,out] there: those of the laws of these tables are added (collective).
+PetscErrorCode FindLawFields(const Tables &tables, LawFields *there);
+
+/// [in] wanted: which fields to fill.
 void FillElementFields(const Tables &tables, int n_owned_cells, const std::vector<ElementHistories> &history,
-                       bool plastic, bool breaks, ElementFields *fields);
+                       const LawFields &wanted, ElementFields *fields);
+
+/// Damage of a spring, from 0 to 1: that of its history; of laws without one, whether it is broken. [in] state: as a
+/// committing evaluation would leave it.
+double DamageOf(const SpringTable &table, const SpringHistory &history, std::uint8_t state, int i);
 
 }  // namespace cdem

@@ -10,8 +10,8 @@
 namespace cdem {
 
 static const std::vector<std::string> kFields = {
-    "displacement", "velocity", "stress",    "region",         "opening", "slip",       "normal_stress",
-    "shear_stress", "state",    "interface", "plastic_strain", "broken",  "broken_time"};
+    "displacement", "velocity", "stress",    "region",         "opening", "slip",        "normal_stress",
+    "shear_stress", "state",    "interface", "plastic_strain", "broken",  "broken_time", "damage"};
 
 PetscErrorCode FieldOutput::Create(MPI_Comm comm, Options &options) {
   PetscFunctionBeginUser;
@@ -26,10 +26,9 @@ PetscErrorCode FieldOutput::Create(MPI_Comm comm, Options &options) {
 bool FieldOutput::Wants(const char *field) const { return wanted_.empty() || Mesh::Find(wanted_, field) >= 0; }
 
 void FieldOutput::Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
-                       const std::vector<int> &face_interface, bool plastic, bool broken) {
+                       const std::vector<int> &face_interface, const LawFields &of_laws) {
   dir_ = dir;
-  with_plastic_ = plastic;
-  with_broken_ = broken;
+  of_laws_ = of_laws;
   mesh_ = &mesh;
   nodes_ = &nodes;
   tables_ = &tables;
@@ -128,10 +127,12 @@ PetscErrorCode FieldOutput::WriteInterfaceMesh(const std::vector<char> &removed,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode FieldOutput::WriteInterfaces(PetscInt step, double time, const double *u, const SpringResults &springs) {
+PetscErrorCode FieldOutput::WriteInterfaces(PetscInt step, double time, const double *u, const SpringResults &springs,
+                                            const std::vector<SpringHistory> &history) {
   PetscFunctionBeginUser;
   const std::size_t n = interface_.size();
-  std::vector<double> opening(n, 0), slip(n, 0), normal(n, 0), shear(n, 0), state(n, 0), area(n, 0), count(n, 0);
+  std::vector<double> opening(n, 0), slip(n, 0), normal(n, 0), shear(n, 0), state(n, 0), area(n, 0), count(n, 0),
+      damage(n, 0);
   std::vector<double> shear_force(3 * n, 0), displacement;
   for (std::size_t g = 0; g < tables_->springs.size(); ++g) {
     const SpringTable &t = tables_->springs[g];
@@ -157,6 +158,7 @@ PetscErrorCode FieldOutput::WriteInterfaces(PetscInt step, double time, const do
       area[row] += t.area[i];
       count[row] += 1;
       state[row] += (springs.state[g][i] & kCohesionLost) != 0;
+      if (of_laws_.damage) damage[row] += DamageOf(t, history[g], springs.state[g][i], i) * t.area[i];
     }
   }
   for (std::size_t row = 0; row < n; ++row) {
@@ -166,6 +168,7 @@ PetscErrorCode FieldOutput::WriteInterfaces(PetscInt step, double time, const do
     normal[row] /= area[row];
     shear[row] = std::sqrt(Dot(&shear_force[3 * row], &shear_force[3 * row])) / area[row];
     state[row] /= count[row];
+    damage[row] /= area[row];
   }
   for (PetscInt node : face_nodes_)
     for (int k = 0; k < 3; ++k) displacement.push_back(u[3 * static_cast<std::size_t>(node) + k]);
@@ -176,6 +179,7 @@ PetscErrorCode FieldOutput::WriteInterfaces(PetscInt step, double time, const do
                                   {"shear_stress", false, 1, shear.data()},
                                   {"state", false, 1, state.data()},
                                   {"interface", false, 1, interface_.data()}};
+  if (of_laws_.damage) fields.push_back({"damage", false, 1, damage.data()});
   fields.erase(std::remove_if(fields.begin(), fields.end(), [&](const VtkField &f) { return !Wants(f.name.c_str()); }),
                fields.end());
   PetscCall(interfaces_.WriteFrame(step, time, fields));
@@ -197,8 +201,7 @@ PetscErrorCode FieldOutput::Write(PetscInt step, double time, const double *u, c
                                   const Histories &history) {
   PetscFunctionBeginUser;
   ElementFields of_history;
-  FillElementFields(*tables_, static_cast<int>(mesh_->n_owned), history.elements, with_plastic_, with_broken_,
-                    &of_history);
+  FillElementFields(*tables_, static_cast<int>(mesh_->n_owned), history.elements, of_laws_, &of_history);
   const std::vector<double> live_stress = OfLive(stress.data(), 6);
   std::vector<VtkField> fields = {{"displacement", true, 3, u},
                                   {"velocity", true, 3, v_now.data()},
@@ -206,15 +209,15 @@ PetscErrorCode FieldOutput::Write(PetscInt step, double time, const double *u, c
                                   {"region", false, 1, region_.data()}};
   for (std::vector<double> *values : {&of_history.plastic_strain, &of_history.broken, &of_history.broken_time})
     if (!values->empty()) *values = OfLive(values->data(), 1);
-  if (with_plastic_) fields.push_back({"plastic_strain", false, 1, of_history.plastic_strain.data()});
-  if (with_broken_) {
+  if (of_laws_.plastic) fields.push_back({"plastic_strain", false, 1, of_history.plastic_strain.data()});
+  if (of_laws_.broken) {
     fields.push_back({"broken", false, 1, of_history.broken.data()});
     fields.push_back({"broken_time", false, 1, of_history.broken_time.data()});
   }
   fields.erase(std::remove_if(fields.begin(), fields.end(), [&](const VtkField &f) { return !Wants(f.name.c_str()); }),
                fields.end());
   PetscCall(blocks_.WriteFrame(step, time, fields));
-  if (with_interfaces_) PetscCall(WriteInterfaces(step, time, u, springs));
+  if (with_interfaces_) PetscCall(WriteInterfaces(step, time, u, springs, history.springs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

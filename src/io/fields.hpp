@@ -13,10 +13,10 @@ class FieldOutput {
  public:
   /// Reads -output_fields (collective).
   PetscErrorCode Create(MPI_Comm comm, Options &options);
-  /// Says what the frames are of, in a folder that exists. All is borrowed. [in] plastic, broken: some stage has such
-  /// fields.
+  /// Says what the frames are of, in a folder that exists. All is borrowed. [in] of_laws: the fields that some
+  /// stage has.
   void Open(const std::string &dir, const Mesh &mesh, const Nodes &nodes, const Tables &tables,
-            const std::vector<int> &face_interface, bool plastic, bool broken);
+            const std::vector<int> &face_interface, const LawFields &of_laws);
   /// Writes the mesh files of what is there from now on (collective). [in] removed: regions that have left, one flag each;
   /// number: how often some have left before.
   PetscErrorCode WriteMesh(const std::vector<char> &removed, int number);
@@ -30,7 +30,8 @@ class FieldOutput {
  private:
   PetscErrorCode WriteInterfaceMesh(const std::vector<char> &removed, int number);
   std::vector<double> OfLive(const double *values, int components) const;
-  PetscErrorCode WriteInterfaces(PetscInt step, double time, const double *u, const SpringResults &springs);
+  PetscErrorCode WriteInterfaces(PetscInt step, double time, const double *u, const SpringResults &springs,
+                                 const std::vector<SpringHistory> &history);
   bool Wants(const char *field) const;
 
   MPI_Comm comm_ = MPI_COMM_NULL;
@@ -44,7 +45,8 @@ class FieldOutput {
   std::vector<double> region_, interface_;
   std::vector<int> row_of_face_;      // row of the interface mesh, -1 otherwise
   std::vector<PetscInt> face_nodes_;  // per point of the interface mesh: node on the side of cell[0]
-  bool with_interfaces_ = false, with_plastic_ = false, with_broken_ = false;
+  bool with_interfaces_ = false;
+  LawFields of_laws_;
   VtkSeries blocks_, interfaces_;
 };
 

@@ -73,6 +73,7 @@ struct JointLawDefaults {
   static constexpr int kState = 0;                ///< doubles of history a spring; all zero at the start
   static constexpr bool kMayKeepTension = false;  ///< asks for keep_tension, its parameter kKeepTension
   static constexpr std::size_t kFromBlocks = 0;   ///< its first properties, strengths; not given: the weaker block's
+  static constexpr int kDamage = -1;              ///< which number of the history is a damage from 0 to 1; -1: none
   /// The history holds a slip kSlip [3] and an opening kGap [m] that make no force: references of a spring that was under
   /// force from the start, or of another stiffness before.
   static constexpr bool kCarriesOffset = false;
