@@ -121,7 +121,12 @@ static PetscErrorCode CarryOffsets(const Mesh &mesh, std::vector<Scene> *scenes)
     for (std::size_t i = 0; i < scene.joints.size(); ++i)
       springs = springs || IsOther(scene.joints[i], plain[k > 0 ? k - 1 : 0].joints[i]);
     if (stressed || springs)
-      for (Joint &joint : scene.joints) CarryOffset(&joint);
+      for (Joint &joint : scene.joints) {
+        CarryOffset(&joint);
+        CdemCheck(joint.law >= 0, mesh.comm,
+                  "interfaces beside stress from the start, or of a stiffness that changes in a stage: this cdem was "
+                  "built with the elastic laws alone (CDEM_ELASTIC_ONLY), which cannot");
+      }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -11,9 +11,14 @@
 
 namespace cdem {
 
+#ifdef CDEM_ELASTIC_ONLY  // what the others cost an elastic scene is measured against a build without them
+using BlockLaws = LawList<Elastic>;
+using JointLaws = LawList<JointElastic>;
+#else
 using BlockLaws = LawList<Elastic, DruckerPrager, MohrCoulomb, Breakage, SpringBlock, ElasticOffset, BreakageOffset,
                           SpringBlockOffset>;
 using JointLaws = LawList<JointElastic, JointBrittle, JointBrittleDilating, JointSoftening, JointSofteningDilating,
                           JointElasticOffset>;
+#endif
 
 }  // namespace cdem

@@ -30,6 +30,10 @@ PetscErrorCode CarryOffset(MPI_Comm comm, const std::string &region, Material *m
       "region '%s': the form onepoint cannot change its stiffness in a stage (its hourglass forces would jump); use "
       "full or bbar",
       region.c_str());
+  CdemCheck(law >= 0, comm,
+            "region '%s' is under stress from the start or changes its stiffness in a stage: this cdem was built with "
+            "the elastic laws alone (CDEM_ELASTIC_ONLY), which cannot",
+            region.c_str());
   material->law = law;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
