@@ -2,6 +2,7 @@
 #include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/petsc_refusal.hpp"
+#include "forces/params.hpp"
 #include "forces/references.hpp"
 #include "loads/supports.hpp"
 #include "simulation.hpp"
@@ -20,6 +21,7 @@ PetscErrorCode Simulation::BuildStage() {
   tables_ = Tables();
   PetscCall(CheckForms(mesh_, scene.materials, &remarks_));
   PetscCall(BuildTables(mesh_, nodes_, face_interface_, scene.materials, scene.joints, removed, &tables_));
+  PetscCall(CheckSizes(mesh_, scene.materials, &remarks_));
   PetscCall(CheckJoints(mesh_, interface_names_, scene.materials, scene.joints, tables_, &remarks_));
   tables_.n_tables = static_cast<int>(scene.tables.size());
   tables_.beta = scene.beta;

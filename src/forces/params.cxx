@@ -96,6 +96,34 @@ PetscErrorCode CheckOwnParams(const Mesh &mesh, const std::vector<Material> &mat
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode CheckSizes(const Mesh &mesh, const std::vector<Material> &materials, std::vector<std::string> *remarks) {
+  PetscFunctionBeginUser;
+  std::vector<double> most(materials.size(), 0.0);  // size over the largest one
+  std::vector<char> own;
+  for (const Material &m : materials) own.push_back(HasOwnParams(m));
+  for (PetscInt c = 0; c < mesh.n_owned; ++c) {
+    const std::size_t region = static_cast<std::size_t>(mesh.cell_region[c]);
+    if (!own[region]) continue;
+    double property[kMaxProperties] = {}, largest = kPropertyInf;
+    const double volume = Volume(mesh, c);
+    CellProperties(mesh, materials[region], c, volume, property);
+    BlockLaws::Visit(materials[region].law, [&](auto law) { largest = decltype(law)::LargestCell(property); });
+    most[region] = std::max(most[region], std::cbrt(volume) / largest);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX, mesh.comm));
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    if (most[i] <= 1 + 1e-9) continue;
+    char text[300];
+    std::snprintf(
+        text, sizeof text,
+        "region %s: elements are up to %.3g times too large for their softening (V^(1/3) <= 2 G gf/(k - k_r)^2): "
+        "they spend more than gf, and what they carry depends on the mesh",
+        mesh.regions[i].c_str(), most[i]);
+    remarks->push_back(text);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /// The number of a face for random numbers: its first cell has the lower global number on every rank.
 static std::uint64_t FaceNumber(const Mesh &mesh, const Face &face) {
   return static_cast<std::uint64_t>(mesh.cell_global[face.cell[0]]) * kMaxFaces + face.local[0];

@@ -22,6 +22,9 @@ void FaceProperties(const Mesh &mesh, const Joint &joint, const Face &face, doub
 void FaceParams(const Mesh &mesh, const Joint &joint, const Face &face, double *param);
 void ScatterStiffness(const Mesh &mesh, const Joint &joint, const Face &face, double *kn, double *ks);
 
+/// remarks receives regions with elements too large for their softening (collective).
+PetscErrorCode CheckSizes(const Mesh &mesh, const std::vector<Material> &materials, std::vector<std::string> *remarks);
+
 /// Elements whose properties, as they scatter, do not go together (collective).
 PetscErrorCode CheckOwnParams(const Mesh &mesh, const std::vector<Material> &materials);
 

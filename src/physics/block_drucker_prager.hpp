@@ -90,6 +90,12 @@ struct DruckerPrager : BlockLawDefaults {
   }
   static std::string Remark(const double *p) { return TensionRemark(p[kSigmaT], Peak(p).apex); }
 
+  /// 2 G gf/(k - k_residual)^2, from which on the softening is as steep as the unloading.
+  static double LargestCell(const double *p) {
+    const double lost = Peak(p).k - Residual(p).k;
+    return Softens(p) ? p[0] / (1 + p[1]) * p[kGf] / (lost * lost) : kPropertyInf;
+  }
+
   /// With gf the strength is residual where plastic shear strain x size has spent gf: (k - k_residual)/2 of it per
   /// volume at I1 = 0.
   static void Derive(const double *property, double size, double *param) {

@@ -57,6 +57,8 @@ struct BlockLawDefaults {
   static std::string Check(const double *) { return {}; }
   /// What Derive changed in the properties, for the header of the run, or an empty string.
   static std::string Remark(const double *) { return {}; }
+  /// Size of an element [m] up to which its strength falls no faster than its stress can.
+  static double LargestCell(const double *) { return kPropertyInf; }
 };
 
 /// Elements of the law break, by their mean stress or at their corners.

@@ -85,6 +85,17 @@ def test_cells_too_large_by_the_blocks_tension_are_said(tmp_path):
     assert "up to 2 times too large for its softening" in text_of(done), text_of(done)
 
 
+@pytest.mark.parametrize("gf, scatter, said", [(1667.0, DROP, False), (2500 / 3, DROP, True), (2500 / 3, "uniform:1e-6", True)])
+def test_cells_too_large_for_softening_blocks_are_said(gf, scatter, said, tmp_path):
+    """V^(1/3) <= 2 G gf/k^2, k = 2 c/sqrt(3): here 1 m (0.5 m), and cells of 1 m."""
+    done = harness.call(tmp_path, changed({"block_law": "drucker_prager", "block_cohesion": 1e6, "block_friction": 0.0,
+                                           "block_gf": gf, "block_cohesion_scatter": scatter}))
+    assert done.returncode == 0, text_of(done)
+    lines = [line for line in text_of(done).splitlines() if "too large" in line]
+    assert bool(lines) == said, text_of(done)
+    assert not said or all(word in lines[0] for word in ("box", "2 times", "gf")), lines
+
+
 def test_blocks_of_springs_count_as_broken_blocks(tmp_path):
     """A box whose top is drawn away by ten times the strain it bears: every block breaks."""
     pulled = {**SPRINGS, "mesh_box_cells": (2, 2, 1), "gravity": (0, 0, 0), "boundaries": ("zmin", "zmax"),
