@@ -1,4 +1,4 @@
-"""The fortress at rest against the static solution of the same mesh, found here by conjugate gradients (about a minute).
+"""The fortress at rest against the static solution of the same mesh, found here by conjugate gradients (half a minute).
 
 The elements are assembled independently of the program; only the mesh file is shared."""
 import itertools
@@ -6,6 +6,7 @@ import os
 import sys
 
 import numpy as np
+import scipy.sparse
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, ".."))
@@ -62,27 +63,26 @@ def elements(x, hexes):
     return k, mass
 
 
-def static(x, hexes, relative=1e-9):
+def static(x, hexes, relative=1e-8):
     """Displacements at rest (n, 3) and the work of gravity."""
     k, corner_mass = elements(x, hexes)
     dofs = (3 * hexes[:, :, None] + np.arange(3)).reshape(len(hexes), 24)
     n = 3 * len(x)
-
-    def gather(values):
-        return np.bincount(dofs.ravel(), values.ravel(), n)
 
     mass = np.bincount(hexes.ravel(), corner_mass.ravel(), len(x))
     load = np.zeros((len(x), 3))
     load[:, 2] = -GRAVITY * mass
     load = load.ravel()
     free = np.repeat(x[:, 2] > 1e-6, 3)
-    scale = free / gather(np.einsum("eii->ei", k))
+    rows, columns = np.repeat(dofs, 24, axis=1), np.tile(dofs, (1, 24))
+    stiffness = scipy.sparse.coo_matrix((k.ravel(), (rows.ravel(), columns.ravel())), (n, n)).tobsr((3, 3))
+    scale = free / stiffness.diagonal()
     u, r = np.zeros(n), load * free
     z = scale * r
     p, rz = z.copy(), r @ z
     stop = relative**2 * rz
     while rz > stop:
-        kp = gather(np.matmul(k, p[dofs][:, :, None])) * free
+        kp = (stiffness @ p) * free
         a = rz / (p @ kp)
         u += a * p
         r -= a * kp

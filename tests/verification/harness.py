@@ -43,6 +43,8 @@ def environment():
     env.setdefault("OMPI_ALLOW_RUN_AS_ROOT", "1")
     env.setdefault("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
     env.setdefault("OMP_NUM_THREADS", "1")
+    env.setdefault("OMPI_MCA_pml", "ob1")  # as in tests/CMakeLists.txt
+    env.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
     return env
 
 

@@ -42,7 +42,7 @@ def peak(lab, sign, law, strength, **numbers):
     """Largest axial stress in compression (sign -1) or tension of a specimen driven beyond its strength's strain.
 
     What breaks drops at once: there the frames must be close."""
-    reach, frames = (1.4, 4000) if law == "breakage" else (2, 100)
+    reach, frames = (1.4, 2000) if law == "breakage" else (2, 100)
     results = lab.run(specimen(law, sign * reach * abs(strength) / YOUNG, frames, **numbers))
     return sign * np.max(sign * axial(results)), results
 
