@@ -1,5 +1,13 @@
-"""Structured meshes of hexahedra or tetrahedra with named regions and surfaces, and those of .geo files, written by gmsh."""
+"""Structured meshes of hexahedra or tetrahedra with named regions and surfaces, and those of .geo files, written by gmsh.
+
+With CDEM_MESHES=DIR what gmsh has written is kept in that folder and taken from there: tests that ran here with it run with
+a copy of the folder on a machine without gmsh."""
+import functools
+import hashlib
 import itertools
+import os
+import shutil
+from pathlib import Path
 
 import numpy as np
 
@@ -20,6 +28,23 @@ def kuhn():
         odd = sum(a > b for a, b in itertools.combinations(order, 2)) % 2
         tetrahedra.append([path[0], path[2], path[1], path[3]] if odd else path)
     return tetrahedra
+
+
+def kept(write):
+    """Of a function write(path, *what) that is called for the same file only once, where there is a folder to keep it."""
+    @functools.wraps(write)
+    def writer(path, *what):
+        folder = os.environ.get("CDEM_MESHES")
+        if not folder:
+            write(path, *what)
+            return
+        file = Path(folder) / (hashlib.sha256(repr((write.__name__, *what)).encode()).hexdigest() + ".msh")
+        if not file.exists():
+            write(path, *what)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(path, file)
+        shutil.copy(file, path)
+    return writer
 
 
 def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda points: points, version=4.1,
@@ -48,6 +73,12 @@ def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda
                         if label is not None:
                             cut = [[corners[c] for c in part if c in local] for part in parts]
                             faces.setdefault(label, []).extend([f for f in cut if len(f) == 3] if tetrahedra else [face])
+    write_grid(path, move(points).tolist(), cells, faces, version, binary, tetrahedra)
+
+
+@kept
+def write_grid(path, points, cells, faces, version, binary, tetrahedra):
+    """Writes regions (cells) and surfaces (faces) by name, each a list of its elements' nodes."""
     import gmsh  # here: what makes no mesh runs without it
 
     gmsh.initialize()
@@ -62,7 +93,7 @@ def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda
                 tag += 1
                 gmsh.model.addDiscreteEntity(dim, tag)
                 if first:
-                    gmsh.model.mesh.addNodes(dim, tag, list(range(1, len(points) + 1)), move(points).ravel().tolist())
+                    gmsh.model.mesh.addNodes(dim, tag, list(range(1, len(points) + 1)), [value for point in points for value in point])
                     first = False
                 gmsh.model.mesh.addElementsByType(tag, kind, list(range(element, element + len(items))),
                                                   [n for item in items for n in item])
@@ -76,11 +107,19 @@ def hexahedra(path, x, y, z, region, side=lambda name, centre: name, move=lambda
 
 def from_geo(path, geo, **numbers):
     """Meshes a .geo file, with other values of the numbers that it declares by DefineConstant."""
+    write_geo(path, Path(geo).read_text(), tuple(sorted(numbers.items())))
+
+
+@kept
+def write_geo(path, geo, numbers):
+    """Meshes the text of a .geo file."""
     import gmsh
 
-    gmsh.initialize(["gmsh", "-v", "0", *(word for name, value in numbers.items() for word in ("-setnumber", name, str(value)))])
+    source = Path(path).with_suffix(".geo")
+    source.write_text(geo)
+    gmsh.initialize(["gmsh", "-v", "0", *(word for name, value in numbers for word in ("-setnumber", name, str(value)))])
     try:
-        gmsh.open(str(geo))
+        gmsh.open(str(source))
         gmsh.model.mesh.generate(3)
         gmsh.write(str(path))
     finally:
