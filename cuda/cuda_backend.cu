@@ -25,12 +25,9 @@ CudaBackend::~CudaBackend() {
   if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
 }
 
-PetscErrorCode CudaBackend::Create(int n_owned_cells, bool audit, const std::string &way) {
+PetscErrorCode CudaBackend::Create(bool audit, const std::string &way) {
   PetscFunctionBeginUser;
-  PetscDeviceContext context;
-  PetscCall(PetscDeviceInitialize(PETSC_DEVICE_CUDA));       // PETSc chooses the device of this rank
-  PetscCall(PetscDeviceContextGetCurrentContext(&context));  // which settles PETSc's stream
-  PetscCall(tables_.Create(t_, n_owned_cells, audit));
+  PetscCall(tables_.Complete(audit));
   PetscCall(u_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
   PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
   PetscCall(batch_.Allocate(1));
@@ -217,11 +214,22 @@ PetscErrorCode CudaBackend::Halo() {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block, bool audit,
-                                 const std::string &way, std::unique_ptr<Backend> *backend) {
+PetscErrorCode CopyToCuda(const Tables &tables, int n_owned_cells, std::shared_ptr<DeviceTables> *device) {
   PetscFunctionBeginUser;
-  auto made = std::make_unique<CudaBackend>(tables, elements_per_block);
-  PetscCall(made->Create(n_owned_cells, audit, way));
+  PetscDeviceContext context;
+  PetscCall(PetscDeviceInitialize(PETSC_DEVICE_CUDA));       // PETSc chooses the device of this rank
+  PetscCall(PetscDeviceContextGetCurrentContext(&context));  // which settles PETSc's stream
+  auto made = std::make_shared<DeviceTables>();
+  PetscCall(made->Create(tables, n_owned_cells));
+  *device = std::move(made);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode CreateCudaBackend(const Tables &tables, std::shared_ptr<DeviceTables> device, int elements_per_block,
+                                 bool audit, const std::string &way, std::unique_ptr<Backend> *backend) {
+  PetscFunctionBeginUser;
+  auto made = std::make_unique<CudaBackend>(tables, std::move(device), elements_per_block);
+  PetscCall(made->Create(audit, way));
   *backend = std::move(made);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

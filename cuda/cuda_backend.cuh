@@ -10,10 +10,13 @@ namespace cdem {
 
 class CudaBackend final : public Backend {
  public:
-  CudaBackend(const Tables &tables, int block) : t_(tables) { launch_.block = block; }
+  CudaBackend(const Tables &tables, std::shared_ptr<DeviceTables> device, int block)
+      : t_(tables), device_(std::move(device)), tables_(*device_) {
+    launch_.block = block;
+  }
   ~CudaBackend() override;
 
-  PetscErrorCode Create(int n_owned_cells, bool audit, const std::string &way);
+  PetscErrorCode Create(bool audit, const std::string &way);
 
   // cuda_backend.cu
   std::string Name() const override;
@@ -49,7 +52,8 @@ class CudaBackend final : public Backend {
 
   const Tables &t_;
   LaunchArgs launch_;
-  DeviceTables tables_;
+  const std::shared_ptr<DeviceTables> device_;
+  DeviceTables &tables_;
   DeviceArray<double> u_, v_, schedule_, history_;
   DeviceArray<BatchState> batch_;
   PinnedValue<BatchState> state_;          // the host side of batch_

@@ -5,7 +5,7 @@
 
 namespace cdem {
 
-PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells, bool audit) {
+PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells) {
   PetscFunctionBeginUser;
   t_ = &tables;
   PetscCall(x_.Upload(tables.x));
@@ -49,7 +49,14 @@ PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells, boo
     }
     springs_.push_back(std::move(s));
   }
-  const NodeRecords &r = tables.records;
+  PetscCall(BuildSlotLists());
+  PetscCall(CreateAverages());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DeviceTables::Complete(bool audit) {
+  PetscFunctionBeginUser;
+  const NodeRecords &r = t_->records;
   if (r.n > 0) {
     PetscCall(record_.Upload(r.of_node));
     PetscCall(kind_.Upload(r.kind));
@@ -62,9 +69,7 @@ PetscErrorCode DeviceTables::Create(const Tables &tables, int n_owned_cells, boo
     PetscCall(quiet_.Upload(r.quiet));
     PetscCall(dashpot_.Upload(r.dashpot));
   }
-  PetscCall(BuildSlotLists());
-  PetscCall(CreateAverages());
-  if (tables.releases) PetscCall(CreateRelease());
+  if (t_->releases) PetscCall(CreateRelease());
   if (audit) PetscCall(CreateAudit());
   PetscFunctionReturn(PETSC_SUCCESS);
 }

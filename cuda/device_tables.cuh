@@ -15,12 +15,19 @@ namespace cdem {
 /// Device copies of Tables, and the state of the springs.
 class DeviceTables {
  public:
-  /// [in] audit: energies are followed from step to step.
-  PetscErrorCode Create(const Tables &tables, int n_owned_cells, bool audit);
+  /// Copies elements, springs and masses.
+  PetscErrorCode Create(const Tables &tables, int n_owned_cells);
+  /// Adds what steps need besides: records of nodes, and more memory. [in] audit: energies are followed from step to step.
+  PetscErrorCode Complete(bool audit);
   std::size_t Bytes() const;
 
   /// Pointers of the nodes; schedule and history are the caller's device buffers.
   NodeView Nodes(double *u, double *v, const double *schedule, double *history) const;
+  /// Fills the slots with the forces of intact elastic elements and springs; no history is read but those of laws of
+  /// corners, which must be new, and none is written. [in] u: [n_local][3] m; param: of ElasticParams; both device.
+  PetscErrorCode LaunchElastic(const double *u, const double *param, const LaunchArgs &launch);
+  SlotLists Lists(bool early = false) const { return {list_start_.get(), list_entry_.get(), slots_.get(), early}; }
+  const double *inverse_mass() const { return inverse_mass_.get(); }
   /// Launches one step's kernels. [in] batch: device.
   PetscErrorCode LaunchStep(const NodeView &nodes, const StepArgs &args, BatchState *batch, const LaunchArgs &launch);
   /// Sums over what this rank counts; waits for them.
@@ -99,7 +106,6 @@ class DeviceTables {
   NodeWorks Works() const { return {node_work_.get(), row_work_.get(), t_->records.n}; }
   ElementView View(const Elements &e, const double *u, const double *v, double beta, bool early = false) const;
   SpringView View(const Springs &s, const double *u, const double *v, double beta, bool early = false) const;
-  SlotLists Lists(bool early = false) const { return {list_start_.get(), list_entry_.get(), slots_.get(), early}; }
   PetscErrorCode AddPartial(int blocks, int columns, int maxima, std::size_t to, cudaStream_t stream);
 
   const Tables *t_ = nullptr;

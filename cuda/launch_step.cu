@@ -1,6 +1,7 @@
 // The kernels of one step.
 #include "core/events.hpp"
 #include "cuda/device_tables.cuh"
+#include "forces/elastic_operator.hpp"
 
 namespace cdem {
 
@@ -17,6 +18,21 @@ static PetscErrorCode Run(PetscLogEvent event, const LaunchArgs &launch, Phase &
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/// [in] law: by which the elements go. [in] first: this launch says which step it is, in batch.
+static PetscErrorCode LaunchForces(const ElementTable &t, int law, const ElementView &view, BatchState *batch,
+                                   bool first, const LaunchArgs &launch) {
+  PetscFunctionBeginUser;
+  PetscErrorCode ierr = PETSC_SUCCESS;
+  VisitBlock(t.shape, t.form, law, [&](auto form, auto block) {
+    using Form = decltype(form);
+    using Law = decltype(block);
+    auto kernel = view.beta != 0 ? ElementKernel<Form, Law, true> : ElementKernel<Form, Law, false>;
+    ierr = Launch(kernel, Blocks(t.n, launch.block), launch.block, launch, view, batch, first);
+  });
+  PetscCall(ierr);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, const StepArgs &args, BatchState *batch,
                                             const LaunchArgs &launch) {
   PetscFunctionBeginUser;
@@ -25,14 +41,7 @@ PetscErrorCode DeviceTables::LaunchElements(const NodeView &nodes, const StepArg
   for (const Elements &e : elements_) {
     const bool first = &e == &elements_[0];  // says which step it is
     const ElementView view = View(e, nodes.u, nodes.v, beta, launch.overlap);
-    PetscErrorCode ierr = PETSC_SUCCESS;
-    VisitBlock(e.host->shape, e.host->form, e.host->law, [&](auto form, auto law) {
-      using Form = decltype(form);
-      using Law = decltype(law);
-      auto kernel = beta != 0 ? ElementKernel<Form, Law, true> : ElementKernel<Form, Law, false>;
-      ierr = Launch(kernel, Blocks(e.host->n, launch.block), launch.block, launch, view, batch, first);
-    });
-    PetscCall(ierr);
+    PetscCall(LaunchForces(*e.host, e.host->law, view, batch, first, launch));
   }
   PetscCall(LaunchPressure(launch));
   for (const Elements &e : elements_)
@@ -55,6 +64,21 @@ PetscErrorCode DeviceTables::LaunchSprings(const NodeView &nodes, const StepArgs
     PetscCall(ierr);
     if (s.work.size() > 0) PetscCall(LaunchWork(s, view, args, launch));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode DeviceTables::LaunchElastic(const double *u, const double *param, const LaunchArgs &launch) {
+  PetscFunctionBeginUser;
+  PetscCall(LaunchDilatation(u, nullptr, 0, launch));
+  for (const Elements &e : elements_) {
+    ElementView view = View(e, u, nullptr, 0, launch.overlap);
+    view.param = param;
+    PetscCall(LaunchForces(*e.host, ElasticLaw(*e.host), view, nullptr, false, launch));
+  }
+  PetscCall(LaunchPressure(launch));
+  for (const Springs &s : springs_)
+    PetscCall(Launch(SpringKernel<JointElastic, false>, Blocks(s.host->n, kBlock), kBlock, launch,
+                     View(s, u, nullptr, 0, launch.overlap)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -41,16 +41,21 @@ PetscErrorCode Simulation::SetUp() {
   for (const BalanceTerm &term : kBalanceTerms) energies += std::string(" ") + term.name;
   PetscCall(monitors_.Open(comm_, n_breakable_ > 0, energies));
   PetscCall(PetscLogStagePop());
-  wall_setup_ = MPI_Wtime() - wall_start_;
-  wall_phases_.back().second += MPI_Wtime();
+  const double now = MPI_Wtime();
+  wall_setup_ = now - wall_start_;
+  wall_phases_[phase_].second += now;
   PetscCall(PrintHeader());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void Simulation::Phase(const char *name) {
+  if (wall_setup_ > 0) return;
   const double now = MPI_Wtime();
-  if (!wall_phases_.empty()) wall_phases_.back().second += now;
-  wall_phases_.emplace_back(name, -now);
+  if (!wall_phases_.empty()) wall_phases_[phase_].second += now;
+  const auto known = std::find_if(wall_phases_.begin(), wall_phases_.end(), [&](auto &p) { return p.first == name; });
+  phase_ = static_cast<std::size_t>(known - wall_phases_.begin());
+  if (known == wall_phases_.end()) wall_phases_.emplace_back(name, 0.0);
+  wall_phases_[phase_].second -= now;
 }
 
 PetscErrorCode Simulation::ReadInput() {
@@ -99,16 +104,18 @@ PetscErrorCode Simulation::BuildModel() {
     histories_.clear();
   }
   // Every stage is built and checked before anything is computed; the one that comes first stays.
-  if (scenes_.size() > 1) Phase("stages");
   for (stage_ = scenes_.size(); stage_-- > 0;) {
     if (stage_ == first_stage_) continue;
+    Phase("stages");
     PetscCall(BuildStage());
+    PetscCall(FindLimit());
     PetscCall(ChooseStep());
   }
   stage_ = first_stage_;
   Phase("tables");
   PetscCall(BuildStage());
-  Phase("step_bound");
+  PetscCall(FindLimit());
+  Phase("tables");
   PetscCall(ChooseStep());
   PetscCall(DMDestroy(&mesh_.dm));  // from here on the flat arrays serve
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -139,12 +146,23 @@ PetscErrorCode Simulation::ChooseDevice() {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Simulation::CreateBackend() {
+/// Only where the device is a GPU, and once a stage.
+PetscErrorCode Simulation::CopyToDevice() {
   PetscFunctionBeginUser;
 #ifdef CDEM_HAVE_CUDA
-  if (device_ == "cuda")
-    PetscCall(CreateCudaBackend(tables_, static_cast<int>(mesh_.n_owned), static_cast<int>(per_block_), book_.on, way_,
-                                &backend_));
+  if (device_ == "cuda" && !device_tables_)
+    PetscCall(CopyToCuda(tables_, static_cast<int>(mesh_.n_owned), &device_tables_));
+#endif
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::CreateBackend() {
+  PetscFunctionBeginUser;
+  PetscCall(CopyToDevice());
+#ifdef CDEM_HAVE_CUDA
+  if (device_tables_)
+    PetscCall(
+        CreateCudaBackend(tables_, std::move(device_tables_), static_cast<int>(per_block_), book_.on, way_, &backend_));
 #endif
   if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), book_.on, &backend_));
   PetscCall(backend_->CreateVecs(&u_, &v_));

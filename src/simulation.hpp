@@ -53,11 +53,12 @@ class Simulation final : public Stepper {
   PetscInt StepsToNext(PetscInt step, PetscReal time, PetscReal dt) override;
 
  private:
-  /// Begins a phase of the set-up for wall_phases_; the one before ends.
+  /// Begins a phase of the set-up for wall_phases_, or goes on with it; the one before ends. Later it does nothing.
   void Phase(const char *name);
   PetscErrorCode ReadInput();
   PetscErrorCode BuildModel();
   PetscErrorCode ChooseDevice();
+  PetscErrorCode CopyToDevice();
   PetscErrorCode CreateBackend();
   PetscErrorCode SetInitialStress();
   PetscErrorCode SetInitialVelocity();
@@ -67,6 +68,8 @@ class Simulation final : public Stepper {
   bool Staged() const { return !scenes_[0].name.empty(); }
   PetscErrorCode BuildStage();  ///< tables of the present stage, with all their checks
   PetscErrorCode CountStage();
+  PetscErrorCode FindLimit();  ///< the critical step of the present stage, and before it masses that are scaled
+  PetscErrorCode FindSharpStep();
   PetscErrorCode ChooseStep();
   PetscErrorCode CreateTS(double dt_old);
   PetscErrorCode NextStage();
@@ -131,6 +134,7 @@ class Simulation final : public Stepper {
   std::size_t stage_ = 0;
   std::vector<History> histories_;
   Tables tables_;
+  std::shared_ptr<DeviceTables> device_tables_;  // a GPU's copy, until the backend has it
   std::unique_ptr<Backend> backend_;
   Vec u_ = nullptr, v_ = nullptr;
   TS ts_ = nullptr;
@@ -194,6 +198,7 @@ class Simulation final : public Stepper {
 
   // figures of the run
   std::vector<std::pair<std::string, double>> wall_phases_;  // of the set-up
+  std::size_t phase_ = 0;                                    // the present one, once there is any
   double wall_setup_ = 0, wall_solve_ = 0, wall_output_ = 0, wall_start_ = 0;
   double wall_watch_ = 0;  // of wall_output_: observations and monitors
   std::int64_t n_cells_[kShapes] = {0, 0, 0}, n_interface_faces_ = 0, n_springs_ = 0, n_breakable_ = 0;

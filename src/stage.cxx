@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace cdem {
 
@@ -18,6 +19,7 @@ PetscErrorCode Simulation::BuildStage() {
   const bool removals = std::any_of(scene.removed.begin(), scene.removed.end(), [](char gone) { return gone != 0; });
   const std::vector<char> removed = removals ? scene.removed : std::vector<char>();
   PetscCall(PetscLogEventBegin(events.tables, nullptr, nullptr, nullptr, nullptr));
+  device_tables_.reset();
   tables_ = Tables();
   PetscCall(CheckForms(mesh_, scene.materials, &remarks_));
   PetscCall(BuildTables(mesh_, nodes_, face_interface_, scene.materials, scene.joints, removed, &tables_));
@@ -61,23 +63,52 @@ PetscErrorCode Simulation::CountStage() {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode Simulation::ChooseStep() {
+/// Elements and springs from which on a GPU finds the sharp step: with fewer the CPU needs no more than 0.1 s, in which the
+/// linear algebra of a GPU hardly starts; and small scenes have the same step on both to the last bit.
+static constexpr std::int64_t kSharpOnDevice = 20000;
+
+PetscErrorCode Simulation::FindSharpStep() {
   PetscFunctionBeginUser;
+  Mat on_device = nullptr;  // else on the host
+#ifdef CDEM_HAVE_CUDA
+  if (device_ == "cuda" && std::accumulate(n_cells_, n_cells_ + kShapes, n_springs_) >= kSharpOnDevice) {
+    Phase("device");
+    PetscCall(CopyToDevice());  // masses are final
+    Phase("critical_step");
+    PetscCall(CreateCudaElasticOperator(tables_, device_tables_, &on_device));
+  }
+#endif
+  PetscCall(ComputeSharpStep(mesh_, nodes_, tables_, Now().materials, bound_, &sharp_, on_device));
+  PetscCall(MatDestroy(&on_device));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::FindLimit() {
+  PetscFunctionBeginUser;
+  Phase("step_bound");
   const Scene &scene = Now();
   const bool scaled = scene.relax && scene.relaxation.scaling;
-  const bool kept = KeepsStep(scene.dt_given), given = scene.dt_given || kept;
-  dt_ = kept ? restart_.Number("dt") : scene.dt;
+  const bool given = scene.dt_given || KeepsStep(scene.dt_given);
   bound_known_ = scaled || !(given && scene.check == "off");
   sharp_known_ = bound_known_ && scene.limit == "sharp";
   if (bound_known_) PetscCall(ComputeStepBound(tables_, scene.materials, &bound_));
   if (scaled) ScaleMasses(scene.materials, bound_.element_w2 + bound_.spring_w2, &tables_);
-  if (sharp_known_) PetscCall(ComputeSharpStep(mesh_, nodes_, tables_, scene.materials, bound_, &sharp_));
+  Phase("critical_step");
+  if (sharp_known_) PetscCall(FindSharpStep());
   if (sharp_known_ && !sharp_.converged) remarks_.push_back(NotSharpText(sharp_));
   // A force that opposes the motion decelerates by up to 1 + local of it: as a body that much stiffer.
   if (local_ > 0 && bound_known_)
     bound_.dt = CriticalStep((1 + local_) * (bound_.element_w2 + bound_.spring_w2), scene.beta);
   if (local_ > 0 && sharp_known_)
     sharp_.dt = std::max(bound_.dt, RoundedStep(CriticalStep((1 + local_) * sharp_.w2, scene.beta)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode Simulation::ChooseStep() {
+  PetscFunctionBeginUser;
+  const Scene &scene = Now();
+  const bool kept = KeepsStep(scene.dt_given), given = scene.dt_given || kept;
+  dt_ = kept ? restart_.Number("dt") : scene.dt;
   const PetscInt done = Resumes() ? first_step_ - stage_step_ : 0;
   const double left = scene.end_time - (Resumes() ? first_time_ - stage_time_ : 0);
   if (!given) {
@@ -195,6 +226,7 @@ PetscErrorCode Simulation::NextStage() {
   stage_time_ = time_;
   stage_step_ = steps_;
   PetscCall(BuildStage());
+  PetscCall(FindLimit());
   PetscCall(ChooseStep());
   PetscCall(IdentifyScene());
   if (holds_) {

@@ -100,12 +100,20 @@ PetscErrorCode ObserveOnHost(const Tables &tables, int n_owned_cells, const doub
                              ElementResults *elements, SpringResults *springs, std::vector<double> *v_now,
                              Observed *observed, std::vector<double> *residual = nullptr);
 
+class DeviceTables;  ///< Tables on a GPU: cuda/device_tables.cuh
+
 #ifdef CDEM_HAVE_CUDA
 /// True when this machine has a usable GPU.
 bool CudaDeviceThere();
-/// [in] way: its name, or "auto" for the fastest that the scene has. Errors: a way that the scene cannot go.
-PetscErrorCode CreateCudaBackend(const Tables &tables, int n_owned_cells, int elements_per_block, bool audit,
-                                 const std::string &way, std::unique_ptr<Backend> *backend);
+/// Starts the GPU and copies what is final once nodes have their masses; records of nodes follow with the backend.
+/// [in] tables: must outlive the copy.
+PetscErrorCode CopyToCuda(const Tables &tables, int n_owned_cells, std::shared_ptr<DeviceTables> *device);
+/// The matrix of CreateElasticOperator for Vecs of the GPU (collective); histories on the device are not touched.
+/// [in] device: the copy of these tables, still without history; it is shared, not copied again.
+PetscErrorCode CreateCudaElasticOperator(const Tables &tables, std::shared_ptr<DeviceTables> device, Mat *matrix);
+/// [in] device: the copy of these tables, which the backend steps on. [in] way: its name, or "auto" for the fastest that the scene has. Errors: a way that the scene cannot go.
+PetscErrorCode CreateCudaBackend(const Tables &tables, std::shared_ptr<DeviceTables> device, int elements_per_block,
+                                 bool audit, const std::string &way, std::unique_ptr<Backend> *backend);
 #endif
 
 }  // namespace cdem

@@ -8,6 +8,34 @@
 
 namespace cdem {
 
+/// Whether the form of a table has laws of its own.
+static bool HasOwnLaws(const ElementTable &t) {
+  bool own = false;
+  VisitElement(t.shape, t.form, [&](auto form) { own = decltype(form)::kAtCorners; });
+  return own;
+}
+
+int ElasticLaw(const ElementTable &t) { return HasOwnLaws(t) ? t.law : BlockLaws::Find(Elastic::kName); }
+
+std::vector<double> ElasticParams(const Tables &tables) {
+  std::vector<double> param = tables.block_param;
+  for (const ElementTable &t : tables.elements)
+    if (HasOwnLaws(t))
+      BlockLaws::Visit(t.law, [&](auto law) {
+        for (int row : t.material) decltype(law)::MakeIntact(&param[static_cast<std::size_t>(kMaxParams) * row]);
+      });
+  return param;
+}
+
+std::vector<std::uint8_t> FreeComponents(const Tables &tables) {
+  const NodeRecords &records = tables.records;
+  std::vector<std::uint8_t> bits(tables.n_owned, 7);
+  for (int i = 0; records.n > 0 && i < tables.n_owned; ++i)
+    for (int row = records.of_node[i], k = 0; row >= 0 && k < 3; ++k)
+      if (((records.kind[row] >> (2 * k)) & 3) != kFree) bits[i] &= static_cast<std::uint8_t>(~(1 << k));
+  return bits;
+}
+
 namespace {
 
 /// What the matrix holds: tables of the elements alone, as elastic ones, and the scaling.
@@ -19,19 +47,6 @@ struct Elasticity {
   std::vector<double> u, f;               // [n_local][3]
   MPI_Datatype unit = MPI_DATATYPE_NULL;
 };
-
-/// Makes a table elastic: by the law of that name, or where the form has a law of its own, by one in which nothing fails.
-void MakeElastic(ElementTable *t, std::vector<double> *param) {
-  t->breaks = t->judged = false;
-  VisitBlock(t->shape, t->form, t->law, [&](auto form, auto law) {
-    if (!decltype(form)::kAtCorners) {
-      t->law = BlockLaws::Find(Elastic::kName);
-      t->states = 0;
-      return;
-    }
-    for (int row : t->material) decltype(law)::MakeIntact(&(*param)[static_cast<std::size_t>(kMaxParams) * row]);
-  });
-}
 
 void AddSprings(const SpringTable &t, const double *u, double *f) {
   const std::size_t stride = t.n_pad;
@@ -99,22 +114,22 @@ PetscErrorCode CreateElasticOperator(const Tables &tables, Mat *matrix) {
   e->tables.halo = tables.halo;
   e->tables.x = tables.x;
   e->tables.elements = tables.elements;
-  e->tables.block_param = tables.block_param;
+  e->tables.block_param = ElasticParams(tables);
   e->tables.layers = tables.layers;
   e->tables.inverse_volume = tables.inverse_volume;
   e->tables.layer_bulk = tables.layer_bulk;
-  for (ElementTable &t : e->tables.elements) MakeElastic(&t, &e->tables.block_param);
+  for (ElementTable &t : e->tables.elements) {
+    t.law = ElasticLaw(t);
+    t.breaks = t.judged = false;
+    if (!HasOwnLaws(t)) t.states = 0;
+  }
   e->history = StartElements(e->tables);
 
-  const NodeRecords &records = tables.records;
+  const std::vector<std::uint8_t> free = FreeComponents(tables);
   e->scale.resize(3 * static_cast<std::size_t>(tables.n_owned));
-  for (int i = 0; i < tables.n_owned; ++i) {
-    const int row = records.n > 0 ? records.of_node[i] : -1;
-    for (int k = 0; k < 3; ++k) {
-      const bool free = row < 0 || ((records.kind[row] >> (2 * k)) & 3) == kFree;
-      e->scale[3 * static_cast<std::size_t>(i) + k] = free ? std::sqrt(tables.inverse_mass[i]) : 0;
-    }
-  }
+  for (int i = 0; i < tables.n_owned; ++i)
+    for (int k = 0; k < 3; ++k)
+      e->scale[3 * static_cast<std::size_t>(i) + k] = free[i] >> k & 1 ? std::sqrt(tables.inverse_mass[i]) : 0;
   e->u.assign(tables.x.size(), 0.0);
   e->f.assign(tables.x.size(), 0.0);
   if (tables.halo) {

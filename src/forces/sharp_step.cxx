@@ -161,15 +161,18 @@ double RoundedStep(double step) {
 }
 
 PetscErrorCode ComputeSharpStep(const Mesh &mesh, const Nodes &nodes, const Tables &tables,
-                                const std::vector<Material> &materials, const StepBound &bound, SharpStep *sharp) {
+                                const std::vector<Material> &materials, const StepBound &bound, SharpStep *sharp,
+                                Mat matrix) {
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.bound, nullptr, nullptr, nullptr, nullptr));
   *sharp = SharpStep();
   sharp->w2 = bound.w2();
   sharp->dt = bound.dt;
-  Mat matrix;
   Vec start;
-  PetscCall(CreateElasticOperator(tables, &matrix));
+  if (matrix)
+    PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+  else
+    PetscCall(CreateElasticOperator(tables, &matrix));
   PetscCall(MatCreateVecs(matrix, &start, nullptr));
   PetscCall(StartVector(mesh, nodes, tables, materials, bound, start));
   // stiffness of the free components at all?
@@ -179,13 +182,13 @@ PetscErrorCode ComputeSharpStep(const Mesh &mesh, const Nodes &nodes, const Tabl
   PetscCall(MatMult(matrix, start, image));
   PetscCall(VecNorm(start, NORM_2, &before));
   PetscCall(VecNorm(image, NORM_2, &size));
+  PetscCall(VecDestroy(&start));  // its memory serves the iteration
   if (size > 0) {
     const double shift = kShift * size / before;
     PetscCall(MatShift(matrix, shift));
     PetscCall(Iterate(matrix, image, shift, sharp));
   }
   PetscCall(VecDestroy(&image));
-  PetscCall(VecDestroy(&start));
   PetscCall(MatDestroy(&matrix));
   PetscCheck(sharp->theta <= bound.w2() * (1 + 1e-9), tables.comm, PETSC_ERR_PLIB,
              "the highest frequency is above its bound: w^2 %g above %g 1/s^2", sharp->theta, bound.w2());

@@ -2,6 +2,8 @@
 #pragma once
 #include "forces/step_bound.hpp"
 
+#include <petscmat.h>
+
 namespace cdem {
 
 struct SharpStep {
@@ -16,8 +18,11 @@ struct SharpStep {
 /// The largest eigenvalue of M^(-1/2) K M^(-1/2) over the free components, springs closed (collective; the same on any
 /// number of ranks). An estimate: theta + residual says that an eigenvalue is there, and the start vector, random with
 /// the modes that give the bound, that it is the largest. Where nothing free has stiffness, the bound is taken.
+/// [in] matrix: the elastic operator of these tables, whose Vecs say where the work is done (elastic_operator.hpp); it is
+/// shifted. NULL: one of the CPU's loops.
 PetscErrorCode ComputeSharpStep(const Mesh &mesh, const Nodes &nodes, const Tables &tables,
-                                const std::vector<Material> &materials, const StepBound &bound, SharpStep *sharp);
+                                const std::vector<Material> &materials, const StepBound &bound, SharpStep *sharp,
+                                Mat matrix = nullptr);
 
 /// Down to 10 significant bits: sums over ranks differ in the last ones.
 double RoundedStep(double step);
