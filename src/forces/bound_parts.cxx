@@ -36,26 +36,35 @@ std::uint64_t Hash(const Canonical &c, int corners) {
   return h;
 }
 
-double LargestEigenvalue(const std::array<double, 6> &s, double *mode) {
-  const double trace = s[kXX] + s[kYY] + s[kZZ];
-  double a[3][3] = {{s[kXX], s[kXY], s[kXZ]}, {s[kXY], s[kYY], s[kYZ]}, {s[kXZ], s[kYZ], s[kZZ]}}, b[3][3],
-         log_scale = 0;
-  if (trace <= 0) return 0;
-  double power = 1;
-  for (int squaring = 0; squaring <= 8; ++squaring) {
-    double norm2 = 0;
-    for (auto &row : a)
-      for (double entry : row) norm2 += entry * entry;
-    const double norm = std::sqrt(norm2);
-    log_scale += std::log(norm) / power;
-    if (squaring == 8) break;
-    for (auto &row : a)
-      for (double &entry : row) entry /= norm;
+/// ||A^256||_F^(1/256) of a symmetric matrix that is not 0. [out] a: A^256 times some number.
+template <class T>
+static T PowerNorm(const T s[6], T a[3][3]) {
+  constexpr int squarings = 8;
+  T norm[squarings + 1], b[3][3];
+  a[0][0] = s[kXX], a[1][1] = s[kYY], a[2][2] = s[kZZ];
+  a[0][1] = a[1][0] = s[kXY], a[1][2] = a[2][1] = s[kYZ], a[0][2] = a[2][0] = s[kXZ];
+  for (int power = 0;; ++power) {
+    T sum{};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) sum += a[i][j] * a[i][j];
+    norm[power] = Sqrt(sum);
+    if (power == squarings) break;
+    const T scale = 1 / norm[power];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) a[i][j] *= scale;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) b[i][j] = a[i][0] * a[0][j] + a[i][1] * a[1][j] + a[i][2] * a[2][j];
     std::copy(&b[0][0], &b[0][0] + 9, &a[0][0]);
-    power *= 2;
   }
+  T root = norm[squarings];
+  for (int power = squarings; power-- > 0;) root = norm[power] * Sqrt(root);
+  return root * (1 + 1e-12);
+}
+
+double LargestEigenvalue(const std::array<double, 6> &s, double *mode) {
+  if (s[kXX] + s[kYY] + s[kZZ] <= 0) return 0;
+  double a[3][3];
+  const double largest = PowerNorm(s.data(), a);
   if (mode) {
     int j = 0;
     for (int k = 1; k < 3; ++k)
@@ -63,7 +72,14 @@ double LargestEigenvalue(const std::array<double, 6> &s, double *mode) {
     const double length = std::sqrt(Dot(a[j], a[j]));
     for (int k = 0; k < 3; ++k) mode[k] = a[j][k] / length;
   }
-  return std::exp(log_scale) * (1 + 1e-12);
+  return largest;
+}
+
+Lanes LargestEigenvalues(const std::array<double, 6> *s) {
+  Lanes of_lanes[6], a[3][3];
+  for (int k = 0; k < 6; ++k)
+    for (int l = 0; l < kLanes; ++l) of_lanes[k][l] = s[l][k];
+  return PowerNorm(of_lanes, a);
 }
 
 /// Adds K_n n n^T + K_s (1 - n n^T) of a spring.
@@ -82,6 +98,14 @@ std::vector<std::array<double, 6>> SpringStiffness(const Tables &tables) {
     for (int i = 0; i < t.n; ++i)
       for (int end : {t.a[i], t.b[i]})
         if (end < tables.n_owned) AddSpring(t, i, &sum[end]);
+  return sum;
+}
+
+std::array<double, 6> SpringStiffness(const Tables &tables, int node) {
+  std::array<double, 6> sum{};
+  for (const SpringTable &t : tables.springs)
+    for (int i = 0; i < t.n; ++i)
+      if (t.a[i] == node || t.b[i] == node) AddSpring(t, i, &sum);
   return sum;
 }
 

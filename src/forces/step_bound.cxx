@@ -25,7 +25,7 @@ struct Top {
 /// Looks at kLanes elements.
 template <class Form>
 void LookAt(const Canonical *batch, const int *element, Top *top) {
-  const Lanes bound = LanesBound<Form>(batch);
+  const Lanes bound = LanesBound<Form>(batch, top->w2);
   for (int l = 0; l < kLanes; ++l)
     if (bound[l] > top->w2) *top = {bound[l], element[l]};
 }
@@ -56,18 +56,37 @@ Top TableBound(const Tables &tables, const ElementTable &t, const std::vector<Ma
   return top;
 }
 
+/// The largest sum of |entries| of a row of a symmetric matrix: no eigenvalue is above it.
+double LargestRow(const std::array<double, 6> &s) {
+  const double xy = std::fabs(s[kXY]), yz = std::fabs(s[kYZ]), xz = std::fabs(s[kXZ]);
+  return std::max({s[kXX] + xy + xz, s[kYY] + xy + yz, s[kZZ] + xz + yz});
+}
+constexpr double kAboveRows = 1.0022;  ///< LargestEigenvalue is at most 3^(1/512) too large
+
 /// The largest 2 lambda_max(S_a)/m_a of the owned nodes, and the first node that has it.
 double SpringBound(const Tables &tables, int *node) {
   *node = -1;
   if (tables.springs.empty()) return 0;
   const std::vector<std::array<double, 6>> sum = SpringStiffness(tables);
   double largest = 0;
+  std::array<double, 6> batch[kLanes];
+  int at[kLanes], filled = 0;
+  const auto look = [&] {
+    std::fill(batch + filled, batch + kLanes, batch[0]);
+    const Lanes lambda = LargestEigenvalues(batch);
+    for (int l = 0; l < filled; ++l) {
+      const double w2 = 2 * lambda[l] * tables.inverse_mass[at[l]];
+      if (w2 > largest) largest = w2, *node = at[l];
+    }
+    filled = 0;
+  };
   for (int i = 0; i < tables.n_owned; ++i) {
-    const double trace = sum[i][kXX] + sum[i][kYY] + sum[i][kZZ];
-    if (2 * trace * tables.inverse_mass[i] <= largest) continue;  // it bounds the eigenvalue: most nodes end here
-    const double w2 = 2 * LargestEigenvalue(sum[i]) * tables.inverse_mass[i];
-    if (w2 > largest) largest = w2, *node = i;
+    if (2 * kAboveRows * LargestRow(sum[i]) * tables.inverse_mass[i] <= largest) continue;  // most nodes end here
+    batch[filled] = sum[i];
+    at[filled++] = i;
+    if (filled == kLanes) look();
   }
+  if (filled > 0) look();
   return largest;
 }
 
@@ -93,7 +112,7 @@ void ElementMode(const Tables &tables, const std::vector<Material> &materials, c
 }
 
 void SpringMode(const Tables &tables, int node, double mode[3]) {
-  LargestEigenvalue(SpringStiffness(tables)[node], mode);
+  LargestEigenvalue(SpringStiffness(tables, node), mode);
 }
 
 PetscErrorCode ComputeStepBound(const Tables &tables, const std::vector<Material> &materials, StepBound *bound) {
