@@ -194,7 +194,8 @@ void CompareLargeScenes() {
     if (scene.find("relax") != std::string::npos) continue;
     char step[80];
     std::snprintf(step, sizeof step, " -ts_central_limit bound -ts_central_check warn -ts_dt %.17g", gpu->dt());
-    const SceneResult with = RunScene(scene + " -device cuda"), without = RunScene(scene + " -device cuda" + step);
+    const SceneResult with = RunScene(scene + " -device cuda", PETSC_COMM_WORLD, true),
+                      without = RunScene(scene + " -device cuda" + step, PETSC_COMM_WORLD, true);
     EXPECT_GT(with.observed.u_max2, 0);
     EXPECT_TRUE(SameBits(with.u, without.u));
     EXPECT_TRUE(SameBits(with.v, without.v));
