@@ -24,7 +24,8 @@ class DeviceTables {
   /// Pointers of the nodes; schedule and history are the caller's device buffers.
   NodeView Nodes(double *u, double *v, const double *schedule, double *history) const;
   /// Fills the slots with the forces of intact elastic elements and springs; no history is read but those of laws of
-  /// corners, which must be new, and none is written. [in] u: [n_local][3] m; param: of ElasticParams; both device.
+  /// corners, which must be new, and none is written. [in] u: [n_local][3] m; param: of
+  /// ElasticParams, or NULL where they are those of the scene; both device.
   PetscErrorCode LaunchElastic(const double *u, const double *param, const LaunchArgs &launch);
   SlotLists Lists(bool early = false) const { return {list_start_.get(), list_entry_.get(), slots_.get(), early}; }
   const double *inverse_mass() const { return inverse_mass_.get(); }

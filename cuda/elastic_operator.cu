@@ -6,6 +6,7 @@
 
 #include <petscdevice_cuda.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace cdem {
@@ -51,7 +52,8 @@ __global__ void __launch_bounds__(kBlock) ForceKernel(Scaling scaling, SlotLists
 struct Elasticity {
   const Tables *scene;
   std::shared_ptr<DeviceTables> device;
-  DeviceArray<double> param, u;  ///< of blocks; [n_local][3] m
+  DeviceArray<double> param;  ///< of blocks; empty where they are those of the scene
+  DeviceArray<double> u;      ///< [n_local][3] m
   DeviceArray<std::uint8_t> free;
   MPI_Datatype unit = MPI_DATATYPE_NULL;
 };
@@ -100,7 +102,8 @@ PetscErrorCode CreateCudaElasticOperator(const Tables &tables, std::shared_ptr<D
   auto e = std::make_unique<Elasticity>();
   e->scene = &tables;
   e->device = std::move(device);
-  PetscCall(e->param.Upload(ElasticParams(tables)));
+  if (std::any_of(tables.elements.begin(), tables.elements.end(), HasOwnLaws))
+    PetscCall(e->param.Upload(ElasticParams(tables)));
   PetscCall(e->free.Upload(FreeComponents(tables)));
   PetscCall(e->u.Allocate(3 * static_cast<std::size_t>(tables.n_local)));
   if (tables.halo) {

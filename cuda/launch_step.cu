@@ -72,7 +72,7 @@ PetscErrorCode DeviceTables::LaunchElastic(const double *u, const double *param,
   PetscCall(LaunchDilatation(u, nullptr, 0, launch));
   for (const Elements &e : elements_) {
     ElementView view = View(e, u, nullptr, 0, launch.overlap);
-    view.param = param;
+    if (param) view.param = param;
     PetscCall(LaunchForces(*e.host, ElasticLaw(*e.host), view, nullptr, false, launch));
   }
   PetscCall(LaunchPressure(launch));

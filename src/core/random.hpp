@@ -1,6 +1,8 @@
 // What the users of Random123 share. A random number is a function of the seed, a key that names what it is for, and a
 // counter: the same on every rank and machine.
 #pragma once
+#include "core/host_device.hpp"
+
 #include <cstdint>
 #include <string_view>
 
@@ -14,6 +16,6 @@ inline std::uint64_t KeyNumber(std::string_view text) {
 }
 
 /// 53 random bits as a number from 0 to below 1.
-inline double UnitReal(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+CDEM_HD double UnitReal(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
 }  // namespace cdem

@@ -8,8 +8,7 @@
 
 namespace cdem {
 
-/// Whether the form of a table has laws of its own.
-static bool HasOwnLaws(const ElementTable &t) {
+bool HasOwnLaws(const ElementTable &t) {
   bool own = false;
   VisitElement(t.shape, t.form, [&](auto form) { own = decltype(form)::kAtCorners; });
   return own;

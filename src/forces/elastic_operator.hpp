@@ -7,7 +7,9 @@ namespace cdem {
 /// The law of blocks, by its number, as which a table counts: the elastic one, or where the form has a law of its own that
 /// one, in which with ElasticParams nothing fails.
 int ElasticLaw(const ElementTable &t);
-/// Parameters for those laws: Tables::block_param without what could fail [row][kMaxParams].
+/// Whether that is so for a table's form.
+bool HasOwnLaws(const ElementTable &t);
+/// Parameters for those laws: Tables::block_param [row][kMaxParams], in such forms without what could fail.
 std::vector<double> ElasticParams(const Tables &tables);
 /// The components of every owned node that nobody prescribes: bits 1, 2, 4 for x, y, z.
 std::vector<std::uint8_t> FreeComponents(const Tables &tables);

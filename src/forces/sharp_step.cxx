@@ -1,10 +1,9 @@
 #include "forces/sharp_step.hpp"
 
 #include "core/events.hpp"
-#include "core/random.hpp"
 #include "forces/elastic_operator.hpp"
+#include "forces/start_vector.hpp"
 
-#include <Random123/philox.h>
 #include <petscksp.h>
 
 #include <algorithm>
@@ -100,29 +99,41 @@ PetscErrorCode StartVector(const Mesh &mesh, const Nodes &nodes, const Tables &t
   if (bound.node >= 0) first[1] = nodes.global[bound.node];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, first, 2, MPI_INT64_T, MPI_MIN, tables.comm));
 
-  PetscScalar *x;
-  PetscCall(VecGetArrayWrite(start, &x));
-  const double scale = std::sqrt(1.0 / static_cast<double>(nodes.n_global));  // three components of variance 1/3
-  r123::Philox4x64 random;
-  const r123::Philox4x64::key_type key = {{KeyNumber("start of the sharp critical step"), 0}};
-  for (int i = 0; i < tables.n_owned; ++i) {
-    const auto bits = random({{static_cast<std::uint64_t>(nodes.global[i]), 0, 0, 0}}, key);
-    for (int k = 0; k < 3; ++k) x[3 * static_cast<std::ptrdiff_t>(i) + k] = scale * (2 * UnitReal(bits[k]) - 1);
-  }
+  StartParts parts;
+  parts.key = KeyNumber("start of the sharp critical step");
+  parts.size = std::sqrt(1.0 / static_cast<double>(nodes.n_global));  // three components of variance 1/3
+  const auto add = [&](int node, const double mode[3]) {
+    for (int k = 0; node < tables.n_owned && k < 3; ++k) {
+      parts.at.push_back(3ll * node + k);
+      parts.added.push_back(mode[k]);
+    }
+  };
   for (const ElementTable &t : tables.elements)
     for (int e = 0; e < t.n; ++e) {
       if (mesh.cell_global[t.cell[e]] != first[0]) continue;
       double mode[kMaxCorners][3];
       ElementMode(tables, materials, t, e, mode);
-      for (int a = 0; a < t.corners; ++a)
-        for (int k = 0; k < 3; ++k)
-          if (t.Node(a, e) < tables.n_owned) x[3 * static_cast<std::ptrdiff_t>(t.Node(a, e)) + k] += mode[a][k];
+      for (int a = 0; a < t.corners; ++a) add(t.Node(a, e), mode[a]);
     }
   if (bound.node >= 0 && nodes.global[bound.node] == first[1]) {
     double mode[3];
     SpringMode(tables, bound.node, mode);
-    for (int k = 0; k < 3; ++k) x[3 * static_cast<std::ptrdiff_t>(bound.node) + k] += mode[k];
+    add(bound.node, mode);
   }
+#ifdef CDEM_HAVE_CUDA
+  PetscBool on_gpu;
+  PetscCall(
+      PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(start), &on_gpu, VECSEQCUDA, VECMPICUDA, VECCUDA, ""));
+  if (on_gpu) {
+    PetscCall(FillCudaStart(nodes.global, parts, start));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+#endif
+  PetscScalar *x;
+  PetscCall(VecGetArrayWrite(start, &x));
+  for (int i = 0; i < tables.n_owned; ++i)
+    RandomComponents(parts.key, parts.size, nodes.global[i], x + 3 * static_cast<std::ptrdiff_t>(i));
+  for (std::size_t i = 0; i < parts.at.size(); ++i) x[parts.at[i]] += parts.added[i];
   PetscCall(VecRestoreArrayWrite(start, &x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
