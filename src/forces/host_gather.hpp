@@ -19,16 +19,22 @@ CDEM_HD void LoadParams(const std::vector<double> &table, const int *row, int co
   }
 }
 
+/// One component of kLanes nodes: built in registers, since lanes written to memory one by one are slow to be read as one.
+CDEM_HD Lanes GatherOne(const double *const p[kLanes], int k) {
+#if defined(__AVX512F__)
+  return Lanes{p[0][k], p[1][k], p[2][k], p[3][k], p[4][k], p[5][k], p[6][k], p[7][k]};
+#elif defined(__AVX__)
+  return Lanes{p[0][k], p[1][k], p[2][k], p[3][k]};
+#else
+  return Lanes{p[0][k], p[1][k]};
+#endif
+}
+
 /// Three components of kLanes nodes from an [n][3] array.
 CDEM_HD void Gather(const double *from, const int *node, Lanes out[3]) {
-  alignas(sizeof(Lanes)) double buffer[3][kLanes];
-  CDEM_UNROLL for (int l = 0; l < kLanes; ++l) {
-    const double *p = from + 3 * static_cast<std::ptrdiff_t>(node[l]);
-    buffer[0][l] = p[0];
-    buffer[1][l] = p[1];
-    buffer[2][l] = p[2];
-  }
-  for (int k = 0; k < 3; ++k) out[k] = LoadAs<Lanes>(buffer[k]);
+  const double *p[kLanes];
+  CDEM_UNROLL for (int l = 0; l < kLanes; ++l) p[l] = from + 3 * static_cast<std::ptrdiff_t>(node[l]);
+  CDEM_UNROLL for (int k = 0; k < 3; ++k) out[k] = GatherOne(p, k);
 }
 
 }  // namespace cdem

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace cdem {
 
@@ -71,6 +72,25 @@ void AuditSprings(const AuditPass &audit, const SpringTable &t, int i, int index
   for (int k = 0; k < kSpringWorks; ++k) StoreAs(&sums[k * stride + i], LoadAs<Lanes>(&sums[k * stride + i]) + work[k]);
 }
 
+bool StatesAreZero(const std::uint8_t *state) {
+  std::uint64_t all = 0;
+  std::memcpy(&all, state, kLanes);
+  return all == 0;
+}
+
+/// What springs i to i + kLanes - 1 lost, and their numbers; of fresh ones nothing is read.
+template <class Law>
+void LoadHistory(const SpringHistory &history, std::size_t stride, int i, bool fresh, Spring<Lanes> *s) {
+  s->tension_lost = s->cohesion_lost = Lanes{};
+  for (int k = 0; k < Law::kState; ++k) s->history[k] = Lanes{};
+  if (fresh) return;
+  for (int l = 0; l < kLanes; ++l) {
+    s->tension_lost[l] = history.state[i + l] & kTensionLost ? 1 : 0;
+    s->cohesion_lost[l] = history.state[i + l] & kCohesionLost ? 1 : 0;
+  }
+  for (int k = 0; k < Law::kState; ++k) s->history[k] = LoadAs<Lanes>(&history.values[k * stride + i]);
+}
+
 template <class Law, bool kBeta, bool kCommit, bool kAudit = false>
 void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, const double *v, double beta,
                 SpringHistory *history, double *f, SpringResults *results, int index,
@@ -79,6 +99,7 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
   for (int i = 0; i < t.n; i += kLanes) {
     Spring<Lanes> s;
     Lanes param[kMaxParams], at[3], force[3];
+    bool fresh = true;  // nothing ever happened to these springs
     Gather(u, &t.b[i], s.d);
     Gather(u, &t.a[i], at);
     for (int k = 0; k < 3; ++k) s.d[k] -= at[k];
@@ -94,14 +115,8 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
       s.area = LoadAs<Lanes>(&t.area[i]);
       LoadParams(tables.joint_param, &t.joint[i], Law::kParams, param);
       s.param = param;
-      double tension_lost[kLanes], cohesion_lost[kLanes];
-      for (int l = 0; l < kLanes; ++l) {
-        tension_lost[l] = history->state[i + l] & kTensionLost ? 1 : 0;
-        cohesion_lost[l] = history->state[i + l] & kCohesionLost ? 1 : 0;
-      }
-      s.tension_lost = LoadAs<Lanes>(tension_lost);
-      s.cohesion_lost = LoadAs<Lanes>(cohesion_lost);
-      for (int k = 0; k < Law::kState; ++k) s.history[k] = LoadAs<Lanes>(&history->values[k * stride + i]);
+      fresh = StatesAreZero(&history->state[i]);
+      LoadHistory<Law>(*history, stride, i, fresh, &s);
     }
     Spring<Lanes> before;
     if constexpr (kAudit) before = s;
@@ -114,11 +129,13 @@ void SpringLoop(const Tables &tables, const SpringTable &t, const double *u, con
     std::uint8_t next[kLanes] = {};
     if constexpr (Law::kHistory) {
       const LaneMask bits = StateBits(outcome);
-      for (int l = 0; l < kLanes; ++l) next[l] = NextState(history->state[i + l], bits[l]);
-      if (kCommit) {
-        std::copy_n(next, kLanes, &history->state[i]);
-        if (Any(outcome.changed))
-          for (int k = 0; k < Law::kState; ++k) StoreAs(&history->values[k * stride + i], s.history[k]);
+      if (!fresh || Any(bits)) {
+        for (int l = 0; l < kLanes; ++l) next[l] = NextState(history->state[i + l], bits[l]);
+        if (kCommit) {
+          std::copy_n(next, kLanes, &history->state[i]);
+          if (Any(outcome.changed))
+            for (int k = 0; k < Law::kState; ++k) StoreAs(&history->values[k * stride + i], s.history[k]);
+        }
       }
     }
     alignas(sizeof(Lanes)) double out[3][kLanes];
