@@ -126,8 +126,8 @@ PetscErrorCode Simulation::ChooseDevice() {
   bool deterministic = false;
   PetscCall(options_.Word("central_way", &way_));
   PetscCall(options_.Flag("deterministic", &deterministic));
-  CdemCheck(way_ != "rows" || !deterministic, comm_,
-            "-central_way rows and -deterministic: sums of the rows have another order; leave one of them out");
+  CdemCheck((way_ != "rows" && way_ != "stencil") || !deterministic, comm_,
+            "-central_way %s and -deterministic: its sums have another order; leave one of them out", way_.c_str());
   if (deterministic) way_ = "reference";
   bool cuda = device_ == "cuda";
 #ifdef CDEM_HAVE_CUDA
@@ -142,6 +142,8 @@ PetscErrorCode Simulation::ChooseDevice() {
   CdemCheck(!cuda, comm_, "-device cuda: this cdem was built without CUDA; build it with ./bootstrap build --cuda");
 #endif
   CdemCheck(way_ != "rows" || cuda, comm_, "-central_way rows is a way of GPUs: use -device cuda, or leave it out");
+  CdemCheck(way_ != "stencil" || !cuda, comm_,
+            "-central_way stencil is a way of CPUs: use -device cpu, or leave it out");
   device_ = cuda ? "cuda" : "cpu";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -164,7 +166,7 @@ PetscErrorCode Simulation::CreateBackend() {
     PetscCall(
         CreateCudaBackend(tables_, std::move(device_tables_), static_cast<int>(per_block_), book_.on, way_, &backend_));
 #endif
-  if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), book_.on, &backend_));
+  if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), book_.on, way_, &backend_));
   PetscCall(backend_->CreateVecs(&u_, &v_));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

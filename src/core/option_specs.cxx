@@ -131,7 +131,7 @@ static std::vector<OptionSpec> &Registry() {
       {"restart", T::kText, "", "", "starts from this checkpoint of the same scene; in its own folder (`-output`) histories and frames go on", ""},
 
       {"device", T::kWord, "", "auto", "where it is computed; auto: cuda if this build and machine have it", "auto,cpu,cuda"},
-      {"central_way", T::kWord, "", "auto", "way of computing a step", "auto,reference,rows"},
+      {"central_way", T::kWord, "", "auto", "way of computing a step", "auto,reference,rows,stencil"},
       {"elements_per_block", T::kInt, "", "32", "elements that a thread block of the GPU takes; a multiple of 32 from 32 to 256", ""},
       {"help_options", T::kWord, "", "", "prints these options and ends: as text, or as the page docs/options.md", "plain,markdown"},
       // clang-format on

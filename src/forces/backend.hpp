@@ -89,8 +89,9 @@ class Backend {
   virtual PetscErrorCode Synchronize() = 0;
 };
 
-/// [in] audit: energies are followed from step to step.
-PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, bool audit,
+/// [in] audit: energies are followed from step to step. way: its name, or "auto" for the fastest that the scene has.
+/// Errors: a way that the scene cannot go.
+PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, bool audit, const std::string &way,
                                  std::unique_ptr<Backend> *backend);
 
 /// At u(n), from host copies: v(n) [n_owned][3], and the element and spring results. Used by every backend for frames,

@@ -1,6 +1,8 @@
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "forces/backend.hpp"
 #include "forces/host_audit.hpp"
+#include "forces/host_stencil.hpp"
 #include "forces/observe.hpp"
 #include "forces/release.hpp"
 
@@ -101,9 +103,27 @@ class HostBackend final : public Backend {
     const char *set = kLanes == 8 ? "AVX-512" : kLanes == 4 ? "AVX" : "SSE2";
     return "cpu, " + std::to_string(kLanes) + " lanes (" + set + ")";
   }
+  Way WayOfStep() const override { return way_; }
+  /// [in] way: its name, or "auto". Errors: a way that the scene cannot go.
+  PetscErrorCode ChooseWay(const std::string &way) {
+    PetscFunctionBeginUser;
+    if (way == "reference") PetscFunctionReturn(PETSC_SUCCESS);
+    auto stencil = std::make_unique<HostStencil>();
+    const std::string why =
+        audit_.Empty() ? stencil->Create(t_, way != "auto") : "the energy balance is kept (-monitor_energy)";
+    CdemCheck(way == "auto" || why.empty(), t_.comm, "-central_way stencil: this scene cannot go that way: %s",
+              why.c_str());
+    if (why.empty()) {
+      way_ = {"stencil", stencil->Text()};
+      stencil_ = std::move(stencil);
+    } else {
+      way_.text += " (not stencil: " + why + ")";
+    }
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   std::size_t Bytes() const override {
-    std::size_t bytes =
-        8 * (3 * u_.size() + history_.acceleration.size() + t_.weight.size() + t_.x.size() + 2 * t_.mass.size());
+    std::size_t bytes = (stencil_ ? stencil_->Bytes() : 0) + 8 * (3 * u_.size() + history_.acceleration.size() +
+                                                                  t_.weight.size() + t_.x.size() + 2 * t_.mass.size());
     for (const ElementTable &e : t_.elements) bytes += 4 * (e.node.size() + e.material.size());
     for (const SpringTable &s : t_.springs) bytes += static_cast<std::size_t>(s.n_pad) * (4 * 3 + 8 * 6);
     for (const SpringHistory &h : history_.springs) bytes += h.state.size() + 8 * h.values.size();
@@ -132,6 +152,13 @@ class HostBackend final : public Backend {
     if (t_.combined) view.last = history_.acceleration.data();
     for (int step = 0; step < batch.n; ++step) {
       const StepArgs &args = step == 0 ? batch.first : batch.rest;
+      if (stencil_ && args == batch.rest) {
+        PetscCall(Timed(events.nodes, &nodes_, [&] {
+          stencil_->Run(view, args, step, batch.n - step, failure);
+          return PETSC_SUCCESS;
+        }));
+        break;
+      }
       const AuditPass followed{&audit_, args.dt_old, args.dt, false}, *audit = audit_.Empty() ? nullptr : &followed;
       if (!t_.halo && failure->step >= 0) break;  // several ranks go on together, and tell at the end
       PetscCall(Timed(events.halo, &halo_, [&] { return Halo(); }));
@@ -281,6 +308,8 @@ class HostBackend final : public Backend {
   int n_owned_cells_;
   std::vector<double> u_, v_, f_;
   Histories history_;
+  std::unique_ptr<HostStencil> stencil_;  // where the scene goes that way
+  Way way_;
   AuditArrays audit_;                      // empty while the audit is off
   BalanceMemory balance_;                  // of relaxations
   std::vector<std::uint8_t> released_;     // of cells, where breaking elements release their interfaces
@@ -291,10 +320,12 @@ class HostBackend final : public Backend {
 
 }  // namespace
 
-PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, bool audit,
+PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, bool audit, const std::string &way,
                                  std::unique_ptr<Backend> *backend) {
   PetscFunctionBeginUser;
-  *backend = std::make_unique<HostBackend>(tables, n_owned_cells, audit);
+  auto made = std::make_unique<HostBackend>(tables, n_owned_cells, audit);
+  PetscCall(made->ChooseWay(way));
+  *backend = std::move(made);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
