@@ -1,7 +1,6 @@
 """The commands of every example's README run, and its check passes: results go to a folder of the test."""
 import importlib.machinery
 import importlib.util
-import os
 import shlex
 import subprocess
 import sys
@@ -9,8 +8,10 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("CDEM", str(ROOT / "build" / "cpu" / "cdem"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification"))
+import harness  # noqa: E402
+
+ROOT, PROGRAM = harness.ROOT, harness.program()
 sys.dont_write_bytecode = True
 
 
@@ -30,5 +31,6 @@ def test_example(name, tmp_path):
     for words in found:
         command = [str(tmp_path / word) if word.startswith("out/") else word for word in words[1:]]
         done = subprocess.run([PROGRAM if words[0] == "build/cpu/cdem" else sys.executable, *command], cwd=ROOT, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=1200)
+                              env=harness.environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+                              timeout=1200)
         assert done.returncode == 0, f"{' '.join(words)}\n{done.stdout[-3000:]}"

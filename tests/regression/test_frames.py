@@ -17,7 +17,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification"))
 import harness  # noqa: E402
 
-CDEM, ENVIRONMENT = harness.program(), harness.environment()
+CDEM = harness.program()
 BLOCK = ["-block_young", "1e9", "-block_poisson", "0.25", "-block_density", "2500", "-gravity", "0,0,-9.81",
          "-boundaries", "zmin", "-boundary_zmin_fix", "xyz", "-device", "cpu"]
 BOX = ["-mesh", "box", "-mesh_box_cells", "4,3,5", "-mesh_box_size", "4,3,5", *BLOCK]
@@ -45,7 +45,7 @@ def cdem(*options, ranks=1):
     command = [CDEM, *map(str, options)]
     if ranks > 1:
         command = [*harness.MPIRUN, "-n", str(ranks), *command]
-    return subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=300)
+    return subprocess.run(command, env=harness.environment(ranks), capture_output=True, text=True, timeout=300)
 
 
 def good(*options, **keywords):
@@ -176,7 +176,7 @@ def test_no_room(tmp_path):
     # The mesh has 9 MB. Open MPI needs some megabytes as well.
     command = ["bash", "-c", 'ulimit -f 8192; exec "$@"', "-", CDEM, *BOX, "-mesh_box_cells", "45,45,45",
                "-ts_max_steps", "1", "-output", str(tmp_path / "out")]
-    refused = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=300,
+    refused = subprocess.run(command, env=harness.environment(), capture_output=True, text=True, timeout=300,
                              restore_signals=False)
     assert refused.returncode == 1 and refused.stderr.count("cdem: error: ") == 1, refused.stderr
     assert f"cannot write {tmp_path}/out/fields_mesh_000.h5" in refused.stderr
@@ -202,7 +202,7 @@ def test_killed_run_keeps_its_frames(tmp_path, ranks):
     for kill in range(6 if ranks == 1 else 3):
         out = tmp_path / str(kill)
         command = [*harness.MPIRUN, "-n", str(ranks)] if ranks > 1 else []
-        run = subprocess.Popen([*command, CDEM, *options, "-output", str(out)], env=ENVIRONMENT,
+        run = subprocess.Popen([*command, CDEM, *options, "-output", str(out)], env=harness.environment(ranks),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
             deadline = time.monotonic() + 120

@@ -384,9 +384,9 @@ def test_kills(ranks, tmp_path):
             command = [*(harness.MPIRUN + ["-n", str(ranks)] if ranks > 1 else []), harness.program(), "-options_file",
                        "scene.txt", *harness.device(options)]
             with open(folder / "log", "w") as log:
-                run = subprocess.Popen(command, cwd=folder, env=harness.environment(), stdout=log, stderr=log)
+                run = subprocess.Popen(command, cwd=folder, env=harness.environment(ranks), stdout=log, stderr=log)
                 try:
-                    run.wait(rng.uniform(0.03 if step else 0.1, typical))
+                    run.wait(rng.uniform(0.03 if step else 0.1, typical * (1 + attempt / 4)))
                     assert run.returncode == 0, (folder / "log").read_text()
                 except subprocess.TimeoutExpired:
                     kills += 1

@@ -1,5 +1,6 @@
 """Runs cdem on a scene given as a dict of options and reads what it wrote."""
 import atexit
+import contextlib
 import csv
 import functools
 import itertools
@@ -73,7 +74,8 @@ def kill(run):
         with open(f"/proc/{run.pid}/task/{run.pid}/children") as file:
             children = [int(pid) for pid in file.read().split()]
     for pid in children:
-        os.kill(pid, signal.SIGKILL)
+        with contextlib.suppress(ProcessLookupError):  # one that has just ended
+            os.kill(pid, signal.SIGKILL)
     run.kill()
     run.wait()
     while any(is_running(pid) for pid in children):
