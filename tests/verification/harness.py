@@ -154,7 +154,7 @@ class Results:
     """What a run left in its folder."""
 
     def __init__(self, folder, output, wall, stdout):
-        self.folder, self.out, self.wall, self.stdout = folder, folder / output, wall, stdout
+        self.folder, self.out, self.wall, self.stdout, self.series = folder, folder / output, wall, stdout, {}
 
     @property
     def summary(self):
@@ -175,9 +175,11 @@ class Results:
         return {column: data[:, i] for i, column in enumerate(header)}
 
     def frames(self, name="fields"):
-        """Times and Frames of a series, in order."""
-        series = json.loads((self.out / f"{name}.hdf.series").read_text())
-        return [(entry["time"], Frame(self.out / entry["name"])) for entry in series["files"]]
+        """Times and Frames of a series, in order; the same ones when asked again."""
+        if name not in self.series:
+            series = json.loads((self.out / f"{name}.hdf.series").read_text())
+            self.series[name] = [(entry["time"], Frame(self.out / entry["name"])) for entry in series["files"]]
+        return self.series[name]
 
     def last_frame(self, name="fields"):
         series = json.loads((self.out / f"{name}.hdf.series").read_text())

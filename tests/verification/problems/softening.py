@@ -35,7 +35,8 @@ def bar(lab, kind, cells):
     options.update({f"interface_bond_{key}": value for key, value in SOFTENING.items()})
     results = lab.run(options)
     pulled = 2 if kind == "P" else 5  # zz, xz
-    load = [frame.cell_data["stress"][np.argmax(frame.centres()[:, 2])][pulled] for _, frame in results.frames()]
+    top = np.argmax(results.last_frame().centres()[:, 2])
+    load = [frame.cell_data["stress"][top][pulled] for _, frame in results.frames()]
     if kind == "P":
         return face(results, "opening"), face(results, "normal_stress"), np.array(load)
     return face(results, "slip"), face(results, "shear_stress"), np.array(load)

@@ -25,7 +25,7 @@ def specimen(law, strain, frames, confining=0.0, **numbers):
         "boundaries": ["xmin", "ymin", "zmin", "zmax"], "boundary_xmin_fix": "x", "boundary_ymin_fix": "y",
         "boundary_zmin_fix": "z", **top, "tables": ["path"], "table_path_type": "ramp", "table_path_delay": settle,
         "damping_alpha": alpha, "ts_max_time": settle + time, "output_interval_time": (settle + time) / frames,
-        "output_fields": ("displacement", "stress", "plastic_strain", "broken", "broken_time")}
+        "output_fields": ("stress", "broken") if law == "breakage" else ("displacement", "stress", "plastic_strain")}
     if confining:
         options["boundaries"] += ["xmax", "ymax"]
         for side in ("xmax", "ymax"):
