@@ -28,13 +28,13 @@ def environment():
     return env
 
 
-def spawn(command):
-    """Runs a command in the root of the sources; returns its output, seconds, CPU seconds and peak memory in bytes."""
+def spawn(command, cwd=ROOT, timeout=TIMEOUT, env=None):
+    """Runs a command; returns its output, seconds, CPU seconds and peak memory in bytes."""
     with tempfile.TemporaryFile() as output:
         start = time.perf_counter()
-        process = subprocess.Popen(command, cwd=ROOT, env=environment(), stdin=subprocess.DEVNULL, stdout=output,
-                                   stderr=subprocess.STDOUT)
-        killer = threading.Timer(TIMEOUT, process.kill)
+        process = subprocess.Popen(command, cwd=cwd, env={**environment(), **(env or {})}, stdin=subprocess.DEVNULL,
+                                   stdout=output, stderr=subprocess.STDOUT)
+        killer = threading.Timer(timeout, process.kill)
         killer.start()
         _, status, usage = os.wait4(process.pid, 0)
         wall = time.perf_counter() - start

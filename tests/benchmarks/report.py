@@ -40,16 +40,27 @@ def line(case):
             f"{case['rate'] / 1e9:.4g} G element-steps/s  {'' if case.get('reached', True) else 'MISSED'}")
 
 
-def head(device, about):
+def title(text, command, raw):
+    return f"# Benchmarks: {text}\n<!-- Written by tests/benchmarks/{command}; do not edit. Every run is in {raw}. -->\n"
+
+
+def facts(about):
+    """Date, version and machine, as lines of a list."""
     machine = about["cpu"] + f", {about['cores']} cores, {about['memory_gib']} GiB"
     if about["gpu"]:
         machine = f"{about['gpu']['name']} ({about['gpu']['memory']}, driver {about['gpu']['driver']}); {machine}"
-    return (f"# Benchmarks: {'one GPU' if device == 'cuda' else 'one CPU core'}\n"
-            f"<!-- Written by tests/benchmarks/run; do not edit. Every run is in {device}.json. -->\n\n"
-            f"- Date: {about['date']}\n"
+    return (f"- Date: {about['date']}\n"
             f"- Version: cdem {about['version']} ({about['git']}), PETSc {about['petsc']}, device {about['device']}\n"
-            f"- Machine: {machine}; load at the start {about['load_at_start']:.2f}, at the end "
-            f"{about['load_at_end']:.2f}\n"
+            f"- Machine: {machine}; load at the start {about['load_at_start']:.2f}, at the end {about['load_at_end']:.2f}")
+
+
+def shared(load):
+    """What the load says of other work on the machine while one core was measured."""
+    return "other work shared the machine" if load > 1.3 else "the machine had little else to do"
+
+
+def head(device, about):
+    return (title("one GPU" if device == "cuda" else "one CPU core", "run", f"{device}.json") + "\n" + facts(about) + "\n"
             f"- Failed: {', '.join(c['name'] for c in about['failed']) or 'none'}; bars missed: "
             f"{', '.join(c['name'] for c in about['missed']) or 'none'}\n\n")
 

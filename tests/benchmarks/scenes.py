@@ -1,0 +1,17 @@
+"""Scenes that several benchmarks run."""
+
+ROCK = {"young": 1.0e10, "poisson": 0.25, "density": 2500.0}
+
+
+def box(cells, steps, **more):
+    """A box of cells of 1 m on a held base, under its weight."""
+    return {"mesh": "box", "mesh_box_cells": ",".join(map(str, cells)), "mesh_box_size": ",".join(map(str, cells)),
+            **{f"block_{key}": value for key, value in ROCK.items()}, "gravity": "0,0,-9.81", "boundaries": "zmin",
+            "boundary_zmin_fix": "xyz", "ts_max_steps": steps, "output_fields": "region", **more}
+
+
+def springs(law):
+    """Every face an interface; the brittle ones test their strength in every step and never reach it."""
+    strength = {"tension": 1e15, "cohesion": 1e15, "friction": 30} if law == "brittle" else {}
+    return {"interfaces": "all", "interface_all_on": "all", "interface_all_law": law,
+            **{f"interface_all_{key}": value for key, value in strength.items()}}
