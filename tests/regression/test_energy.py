@@ -1,4 +1,4 @@
-"""The energy balance of a run that stops and goes on is that of a straight one, to the last bit, on any number of ranks;
+"""A run that stops and goes on equals a straight one, its energy balance too, to the last bit, on any number of ranks;
 the summary has it; and a run that becomes unstable leaves its last good state."""
 import json
 
@@ -16,18 +16,11 @@ def rows(path):
     return [dict(zip(names, line.split())) for line in lines[1:]]
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(restart.WATCHED))
 def test_restart_keeps_the_balance(seed, tmp_path):
-    options, _ = restart.scene(seed)
-    options = {**options, **restart.AT_THE_END, **ENERGY}
-    before, after = restart.RANKS[seed % len(restart.RANKS)]
-    stop = 7 + 9 * seed
-    harness.run(tmp_path / "straight", options)
-    straight = rows(tmp_path / "straight" / "energy.txt")
-    harness.run(tmp_path / "parts", {**options, "ts_max_steps": stop}, ranks=before)
-    first = rows(tmp_path / "parts" / "energy.txt")
-    harness.run(tmp_path / "parts", {**options, "restart": f"out/checkpoint_{stop}.h5"}, ranks=after)
-    second = rows(tmp_path / "parts" / "energy.txt")
+    parts, energy = [], tmp_path / "parts" / "energy.txt"
+    restart.straight_and_interrupted(seed, tmp_path, ENERGY, lambda: parts.append(rows(energy)))
+    straight, first, second = rows(tmp_path / "straight" / "energy.txt"), parts[0], rows(energy)
     free = {"form", "momentum_x", "momentum_y", "momentum_z"}  # summed in the order of the ranks
     compared = 0
     for part in (first, second):
