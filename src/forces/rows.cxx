@@ -1,11 +1,8 @@
 #include "forces/rows.hpp"
 
 #include "forces/bodies.hpp"
-#include "forces/host_passes.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <utility>
 
 namespace cdem {
@@ -24,86 +21,6 @@ std::string NoRows(const Tables &t) {
     if (!linear) return "interfaces that are not linear";
   }
   return "";
-}
-
-namespace {
-
-using Row = std::map<int, std::array<double, 9>>;
-
-/// Every element of a table with nodes of its own, so that one pass answers for all: its tables have as many nodes as
-/// there are corners.
-Tables Apart(const Tables &scene, const ElementTable &from) {
-  Tables t;
-  t.elements = {from};
-  t.block_param = scene.block_param;
-  t.n_owned = t.n_local = from.corners * from.n_pad;
-  t.x.resize(3 * static_cast<std::size_t>(t.n_local));
-  for (int i = 0; i < t.n_local; ++i) {
-    std::copy_n(&scene.x[3 * static_cast<std::size_t>(from.node[i])], 3, &t.x[3 * static_cast<std::size_t>(i)]);
-    t.elements[0].node[i] = i;
-  }
-  return t;
-}
-
-void AddElements(const Tables &scene, const ElementTable &table, std::vector<Row> *rows) {
-  const Tables apart = Apart(scene, table);
-  std::vector<ElementHistories> none = StartElements(apart);
-  std::vector<double> u(apart.x.size()), f(apart.x.size());
-  for (int b = 0; b < table.corners; ++b)
-    for (int j = 0; j < 3; ++j) {
-      std::fill(u.begin(), u.end(), 0.0);
-      std::fill(f.begin(), f.end(), 0.0);
-      for (int e = 0; e < table.n_pad; ++e) u[3 * (static_cast<std::size_t>(b) * table.n_pad + e) + j] = 1;
-      HostElements(apart, u.data(), nullptr, 0, 0, none, f.data());
-      for (int e = 0; e < table.n; ++e)
-        for (int a = 0; a < table.corners; ++a)
-          for (int i = 0; i < 3; ++i)
-            (*rows)[table.Node(a, e)][table.Node(b, e)][3 * i + j] +=
-                f[3 * (static_cast<std::size_t>(a) * table.n_pad + e) + i];
-    }
-}
-
-void AddSprings(const SpringTable &t, std::vector<Row> *rows) {
-  const std::size_t stride = t.n_pad;
-  for (int i = 0; i < t.n; ++i)
-    for (int j = 0; j < 3; ++j) {
-      Spring<double> s;
-      double force[3];
-      for (int k = 0; k < 3; ++k) {
-        s.d[k] = k == j;
-        s.normal[k] = t.normal[k * stride + i];
-      }
-      s.kn = t.kn[i];
-      s.ks = t.ks[i];
-      JointLaws::Visit(t.law, [&](auto law) {
-        if constexpr (decltype(law)::kLinear) SpringForce<decltype(law), false>(s, force);
-      });
-      // force is what acts on b when b has moved; the internal force is its opposite
-      for (int k = 0; k < 3; ++k) {
-        (*rows)[t.b[i]][t.b[i]][3 * k + j] -= force[k];
-        (*rows)[t.b[i]][t.a[i]][3 * k + j] += force[k];
-        (*rows)[t.a[i]][t.b[i]][3 * k + j] += force[k];
-        (*rows)[t.a[i]][t.a[i]][3 * k + j] -= force[k];
-      }
-    }
-}
-
-}  // namespace
-
-StiffnessRows AssembleRows(const Tables &tables) {
-  std::vector<Row> rows(tables.n_owned);
-  for (const ElementTable &t : tables.elements) AddElements(tables, t, &rows);
-  for (const SpringTable &t : tables.springs) AddSprings(t, &rows);
-  StiffnessRows result;
-  result.start = {0};
-  for (const Row &row : rows) {
-    for (const auto &[column, block] : row) {
-      result.column.push_back(column);
-      result.block.insert(result.block.end(), block.begin(), block.end());
-    }
-    result.start.push_back(static_cast<int>(result.column.size()));
-  }
-  return result;
 }
 
 namespace {

@@ -1,4 +1,5 @@
-// The stiffness of a small linear scene as assembled rows, and their distribution over the thread blocks of a cluster.
+// The stiffness of a linear scene as assembled rows, and of a small one their distribution over the thread blocks of a
+// cluster.
 #pragma once
 #include "forces/tables.hpp"
 
@@ -17,7 +18,7 @@ struct StiffnessRows {
 std::string NoRows(const Tables &tables);
 
 /// Assembles the rows of a scene for which NoRows says nothing: the bodies of the loops over elements and springs, on
-/// one unit displacement after the other.
+/// one unit displacement after the other (assembly.cxx).
 StiffnessRows AssembleRows(const Tables &tables);
 
 /// Rows over the blocks of a cluster: 4 lanes a node, each with kCouplings. A block keeps the displacements of its own
