@@ -126,7 +126,7 @@ PetscErrorCode Simulation::ChooseDevice() {
   bool deterministic = false;
   PetscCall(options_.Word("central_way", &way_));
   PetscCall(options_.Flag("deterministic", &deterministic));
-  CdemCheck((way_ != "rows" && way_ != "stencil") || !deterministic, comm_,
+  CdemCheck((way_ == "auto" || way_ == "reference") || !deterministic, comm_,
             "-central_way %s and -deterministic: its sums have another order; leave one of them out", way_.c_str());
   if (deterministic) way_ = "reference";
   bool cuda = device_ == "cuda";
@@ -142,8 +142,8 @@ PetscErrorCode Simulation::ChooseDevice() {
   CdemCheck(!cuda, comm_, "-device cuda: this cdem was built without CUDA; build it with ./bootstrap build --cuda");
 #endif
   CdemCheck(way_ != "rows" || cuda, comm_, "-central_way rows is a way of GPUs: use -device cuda, or leave it out");
-  CdemCheck(way_ != "stencil" || !cuda, comm_,
-            "-central_way stencil is a way of CPUs: use -device cpu, or leave it out");
+  CdemCheck((way_ != "stencil" && way_ != "assembled") || !cuda, comm_,
+            "-central_way %s is a way of CPUs: use -device cpu, or leave it out", way_.c_str());
   device_ = cuda ? "cuda" : "cpu";
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -125,8 +125,8 @@ bool IsOfScene(const OptionSpec &spec) {
   const OptionPattern pattern(spec);
   for (const char *free : {"ts_", "monitor_", "histor", "output", "checkpoint_", "restart", "help_"})
     if (pattern.family.rfind(free, 0) == 0) return false;
-  for (const char *free : {"mesh", "deterministic", "device", "central_way", "elements_per_block", "relax_ratio",
-                           "relax_kinetic", "relax_max_steps"})
+  for (const char *free : {"mesh", "deterministic", "device", "central_way", "central_mat_type", "elements_per_block",
+                           "relax_ratio", "relax_kinetic", "relax_max_steps"})
     if (pattern.family == free) return false;
   return pattern.key != "file";
 }

@@ -1,6 +1,6 @@
 #include "core/error.hpp"
 #include "core/events.hpp"
-#include "forces/backend.hpp"
+#include "forces/assembled.hpp"
 #include "forces/host_audit.hpp"
 #include "forces/host_stencil.hpp"
 #include "forces/observe.hpp"
@@ -108,6 +108,13 @@ class HostBackend final : public Backend {
   PetscErrorCode ChooseWay(const std::string &way) {
     PetscFunctionBeginUser;
     if (way == "reference") PetscFunctionReturn(PETSC_SUCCESS);
+    if (way == "assembled") {
+      PetscCall(CheckAssembled(t_, !audit_.Empty()));
+      assembled_ = std::make_unique<AssembledWay>();
+      PetscCall(assembled_->Create(t_, u_.data(), f_.data()));
+      way_ = assembled_->way();
+      PetscFunctionReturn(PETSC_SUCCESS);
+    }
     auto stencil = std::make_unique<HostStencil>();
     const std::string why =
         audit_.Empty() ? stencil->Create(t_, way != "auto") : "the energy balance is kept (-monitor_energy)";
@@ -122,8 +129,9 @@ class HostBackend final : public Backend {
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   std::size_t Bytes() const override {
-    std::size_t bytes = (stencil_ ? stencil_->Bytes() : 0) + 8 * (3 * u_.size() + history_.acceleration.size() +
-                                                                  t_.weight.size() + t_.x.size() + 2 * t_.mass.size());
+    std::size_t bytes =
+        (stencil_ ? stencil_->Bytes() : 0) + (assembled_ ? assembled_->Bytes() : 0) +
+        8 * (3 * u_.size() + history_.acceleration.size() + t_.weight.size() + t_.x.size() + 2 * t_.mass.size());
     for (const ElementTable &e : t_.elements) bytes += 4 * (e.node.size() + e.material.size());
     for (const SpringTable &s : t_.springs) bytes += static_cast<std::size_t>(s.n_pad) * (4 * 3 + 8 * 6);
     for (const SpringHistory &h : history_.springs) bytes += h.state.size() + 8 * h.values.size();
@@ -162,14 +170,15 @@ class HostBackend final : public Backend {
       const AuditPass followed{&audit_, args.dt_old, args.dt, false}, *audit = audit_.Empty() ? nullptr : &followed;
       if (!t_.halo && failure->step >= 0) break;  // several ranks go on together, and tell at the end
       PetscCall(Timed(events.halo, &halo_, [&] { return Halo(); }));
-      PetscCall(Timed(events.elements, &elements_, [&] {
+      PetscCall(Timed(events.elements, &elements_, [&]() -> PetscErrorCode {
+        if (assembled_) return assembled_->Forces(v_.data());
         std::fill(f_.begin(), f_.end(), 0.0);
         const double time = StepEnd(batch.base, batch.offset, step, batch.rest.dt);
         HostElements(t_, u_.data(), v_.data(), t_.beta, time, history_.elements, f_.data(), audit);
         return PETSC_SUCCESS;
       }));
       if (t_.releases) PetscCall(ReleaseSprings(t_, history_.elements, &released_, &history_.springs));
-      if (!t_.springs.empty())
+      if (!t_.springs.empty() && !assembled_)
         PetscCall(Timed(events.springs, &springs_, [&] {
           HostSprings(t_, u_.data(), v_.data(), t_.beta, history_.springs, f_.data(), audit);
           return PETSC_SUCCESS;
@@ -308,7 +317,8 @@ class HostBackend final : public Backend {
   int n_owned_cells_;
   std::vector<double> u_, v_, f_;
   Histories history_;
-  std::unique_ptr<HostStencil> stencil_;  // where the scene goes that way
+  std::unique_ptr<HostStencil> stencil_;     // where the scene goes that way
+  std::unique_ptr<AssembledWay> assembled_;  // where the user asks for it
   Way way_;
   AuditArrays audit_;                      // empty while the audit is off
   BalanceMemory balance_;                  // of relaxations

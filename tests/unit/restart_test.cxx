@@ -67,7 +67,8 @@ TEST(Restart, OptionsOfTheScene) {
                            "log_view",
                            "dm_refine",
                            "deterministic",
-                           "central_way"})
+                           "central_way",
+                           "central_mat_type"})
     for (const GivenOption &option : SceneOptions({{name, "x\ty", true}})) {
       kept.insert(option.name);
       EXPECT_EQ(option.value, "x y");
