@@ -11,5 +11,5 @@ unit = os.path.join(os.environ["CDEM_BUILD"], "tests", "cdem_unit")
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_mesh(ranks):
     run = subprocess.run(["mpirun", "-np", str(ranks), unit, "--gtest_filter=*Mesh*", "--gtest_brief=1"],
-                         capture_output=True, text=True, timeout=600)
+                         cwd=os.path.dirname(unit), capture_output=True, text=True, timeout=600)
     assert run.returncode == 0, run.stdout + run.stderr
