@@ -65,8 +65,8 @@ def element_matrices(x, young, poisson, density):
     return stiffness.reshape(-1, 24, 24), mass
 
 
-def assemble(points, cells, scene):
-    """dt^2 M^-1 K with the rows of the held nodes empty, and dt^2 times the acceleration by weight."""
+def stiffness(points, cells, scene):
+    """Stiffness (CSR, three rows a node) and lumped masses of the nodes."""
     n = len(points)
     mass, parts = np.zeros(n), []
     for some in np.array_split(cells, max(1, len(cells) // 4000)):
@@ -77,10 +77,16 @@ def assemble(points, cells, scene):
         parts.append(sparse.coo_matrix((k.ravel(), (rows.ravel(), columns.ravel())), shape=(3 * n, 3 * n)).tocsr())
     while len(parts) > 1:  # sums of neighbours stay small
         parts = [sum(parts[i + 1:i + 2], parts[i]) for i in range(0, len(parts), 2)]
+    return parts[0], mass
+
+
+def assemble(points, cells, scene):
+    """dt^2 M^-1 K with the rows of the held nodes empty, and dt^2 times the acceleration by weight."""
+    matrix, mass = stiffness(points, cells, scene)
     free = np.repeat(points[:, 2] > points[:, 2].min(), 3)
     scale = scene["dt"] ** 2 * free / np.repeat(mass, 3)
-    load = scene["dt"] ** 2 * np.where(free, np.tile(scene["gravity"], n), 0.0)
-    return (sparse.diags(scale) @ parts[0]).tocsr(), load
+    load = scene["dt"] ** 2 * np.where(free, np.tile(scene["gravity"], len(points)), 0.0)
+    return (sparse.diags(scale) @ matrix).tocsr(), load
 
 
 def compiled(folder):
