@@ -8,7 +8,6 @@ largest difference of the end state from cdem's, over the largest displacement. 
 It assembles from the frame's points and cells by its own code (8-node hexahedra, 2x2x2 Gauss points), folds dt^2, mass
 and support into the matrix, and so needs one product and two sums a step: the cheapest form of this way."""
 import ctypes
-import itertools
 import json
 import subprocess
 import sys
@@ -16,12 +15,12 @@ import tempfile
 import time
 from pathlib import Path
 
-import h5py
 import numpy as np
 import scipy
 import scipy.sparse as sparse
 
 from measure import median_of
+from peer_scene import element_matrices, read
 
 # A plain loop over 3x3 blocks, which the compiler sees whole: scipy's goes through a general block product.
 BSR3 = r"""
@@ -42,27 +41,6 @@ void steps(long n, long steps, const int *first, const int *column, const double
   }
 }
 """
-
-
-def element_matrices(x, young, poisson, density):
-    """24x24 stiffness and 8 corner masses of hexahedra with corners x (cells, 8, 3), in the order of VTK."""
-    la = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
-    mu = young / (2 * (1 + poisson))
-    sign = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
-    stiffness, mass = np.zeros((len(x), 8, 3, 8, 3)), np.zeros((len(x), 8))
-    for p in itertools.product((-1 / np.sqrt(3), 1 / np.sqrt(3)), repeat=3):
-        t = 1 + sign * np.array(p)
-        dn = np.stack([sign[:, a] * t[:, (a + 1) % 3] * t[:, (a + 2) % 3] / 8 for a in range(3)], 1)
-        jacobian = np.einsum("ai,cak->cik", dn, x)
-        volume = np.linalg.det(jacobian)
-        g = np.einsum("cki,ai->cak", np.linalg.inv(jacobian), dn)
-        pairs = np.einsum("cak,cbl->cakbl", g, g, optimize=True) * volume[:, None, None, None, None]
-        stiffness += la * pairs + mu * pairs.transpose(0, 1, 4, 3, 2)
-        dot = np.trace(pairs, axis1=2, axis2=4)
-        for k in range(3):
-            stiffness[:, :, k, :, k] += mu * dot
-        mass += density * volume[:, None] * (t.prod(1) / 8)
-    return stiffness.reshape(-1, 24, 24), mass
 
 
 def stiffness(points, cells, scene):
@@ -102,9 +80,7 @@ def compiled(folder):
 
 def main():
     folder, scene, repeat = Path(sys.argv[1]), json.loads(sys.argv[2]), int(sys.argv[3])
-    with h5py.File(max(folder.glob("fields_[0-9]*.hdf")), "r") as file:
-        points, cells = file["VTKHDF/Points"][:], file["VTKHDF/Connectivity"][:].reshape(-1, 8)
-        theirs = file["VTKHDF/PointData/displacement"][:].ravel()
+    points, cells, theirs = read(folder)
     start = time.perf_counter()
     matrix, load = assemble(points, cells, scene)
     assembly = time.perf_counter() - start
@@ -133,7 +109,7 @@ def main():
     forms = {"CSR, scipy": lambda: product(matrix), "block CSR 3x3, scipy": lambda: product(blocks)}
     if loop:
         forms["block CSR 3x3, plain C loop (cc -O3 -march=native)"] = native
-    result = {"assembly": assembly, "scipy": scipy.__version__, "forms": {}}
+    result = {"assembly": assembly, "version": f"scipy {scipy.__version__}", "forms": {}}
     for name, form in forms.items():
         def run():
             start, cpu = time.perf_counter(), time.process_time()

@@ -34,8 +34,9 @@ def line(case):
     if "peak_gib" in case:
         return f"{name}{case['seconds']:.2f} s, {case['peak_gib']:.2f} GiB, spread {percent(case['spread'])}"
     if "forms" in case:
-        return "\n".join(f"{name}{f['ns']:.1f} ns, fastest {f['fastest_ns']:.1f} ns, spread {percent(f['spread'])}: {f['form']}"
-                         for f in case["forms"])
+        return "\n".join(f"{name}{f['ns']:.1f} ns, fastest {f['fastest_ns']:.1f} ns, spread {percent(f['spread'])}, "
+                         f"{f['fastest_ns'] / case['forms'][-1]['fastest_ns']:.2f} of cdem: {f['form']}"
+                         for f in case["forms"]) + "".join(f"\n{name}without: {why}" for why in case.get("missing", []))
     return (f"{name}{seconds(case['solve'])}, spread {percent(case['spread'])}, {case['ns']:.4g} ns, "
             f"{case['rate'] / 1e9:.4g} G element-steps/s  {'' if case.get('reached', True) else 'MISSED'}")
 
@@ -119,7 +120,8 @@ def setup(case):
 def peers(cases):
     text = ("## Peer\n"
             "The same mesh with its stiffness assembled, one product of matrix and vector a step: the hardest peer for linear\n"
-            "elasticity (it gives no stress and cannot break). The peer assembles by its own code (`tests/benchmarks/peer.py`).\n"
+            "elasticity (it gives no stress and cannot break). `-central_way assembled` is such a product by PETSc within cdem;\n"
+            "the others (`tests/benchmarks/peer.py`, `peer_torch.py`) assemble by their own code, PyTorch element by element.\n"
             "cdem runs again just before and just after it. Ratio: fastest to fastest. Difference: largest of the displacements\n"
             "at the end from those of cdem, over the largest displacement.\n\n"
             "| scene | program | ns an element-step | fastest | runs | spread | peer / cdem | difference |\n"
@@ -129,8 +131,10 @@ def peers(cases):
         for f in c["forms"]:
             text += (f"| {c['of']} | {f['form']} | {f['ns']:.4g} | {f['fastest_ns']:.4g} | {sum(r['used'] for r in f['runs'])} | "
                      f"{percent(f['spread'])} | "
-                     + (" | " if f is ours else f"{f['fastest_ns'] / ours['fastest_ns']:.2f} | {f['difference']:.1e}") + " |\n")
-    return text + f"\nscipy {cases[0]['scipy']}.\n\n"
+                     + (" | " if f is ours else f"{f['fastest_ns'] / ours['fastest_ns']:.2f} | " + (f"{f['difference']:.1e}" if "difference" in f else "")) + " |\n")
+    for c in cases:
+        text += f"\n- {c['of']}: {c.get('version') or 'scipy ' + c['scipy']}" + "".join(f"; without: {why}" for why in c.get("missing", []))
+    return text + "\n\n"
 
 
 def page(device, content):
