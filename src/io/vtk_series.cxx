@@ -160,6 +160,8 @@ PetscErrorCode VtkSeries::WriteFrame(PetscInt step, double time, const std::vect
 PetscErrorCode VtkSeries::Continue(const std::vector<KeptFrame> &frames) {
   PetscFunctionBeginUser;
   frames_ = frames;
+  listed_ = 0;
+  list_.clear();
   PetscCall(WriteList());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -170,18 +172,20 @@ std::string VtkSeries::FileName(long long number) const {
   return name_ + text;
 }
 
-PetscErrorCode VtkSeries::WriteList() const {
+PetscErrorCode VtkSeries::WriteList() {
   PetscFunctionBeginUser;
   int rank;
   PetscCallMPI(MPI_Comm_rank(comm_, &rank));
   std::string failure;
   if (rank == 0) {
-    std::string list;
-    for (const KeptFrame &frame : frames_)
-      list += (list.empty() ? "" : ",") +
-              ("\n" + nlohmann::ordered_json{{"name", FileName(frame.number)}, {"time", frame.time}}.dump());
+    for (; listed_ < frames_.size();
+         ++listed_) {  // what is there already is not made again: runs have thousands of frames
+      const KeptFrame &frame = frames_[listed_];
+      list_ += (list_.empty() ? "" : ",") +
+               ("\n" + nlohmann::ordered_json{{"name", FileName(frame.number)}, {"time", frame.time}}.dump());
+    }
     failure = ReplaceFile(dir_ + "/" + name_ + ".hdf.series",
-                          "{\"file-series-version\": \"1.0\", \"files\": [" + list + "\n]}\n");
+                          "{\"file-series-version\": \"1.0\", \"files\": [" + list_ + "\n]}\n");
   }
   PetscCall(CheckFailure(comm_, failure));
   PetscFunctionReturn(PETSC_SUCCESS);

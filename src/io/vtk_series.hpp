@@ -43,7 +43,7 @@ class VtkSeries {
 
  private:
   std::string FileName(long long number) const;
-  PetscErrorCode WriteList() const;
+  PetscErrorCode WriteList();
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   std::string dir_, name_, mesh_name_;
@@ -52,6 +52,8 @@ class VtkSeries {
   std::int64_t point_offset_ = 0, cell_offset_ = 0, points_total_ = 0, cells_total_ = 0;
   PetscInt point_rows_ = 0, cell_rows_ = 0;  // of this rank's block of the file
   std::vector<KeptFrame> frames_;
+  std::string list_;  // the series file's words for the first listed_ of them
+  std::size_t listed_ = 0;
 };
 
 }  // namespace cdem
