@@ -71,14 +71,15 @@ class Machine:
             "memory_gib": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30, 1),
             "gpu": gpu() if device == "cuda" else None, "load_at_start": os.getloadavg()[0]}
 
-    def run(self, options, keep=False):
+    def run(self, options, keep=False, ranks=1):
         """One run; with keep its results stay in self.out until the next run."""
         self.out = self.scratch / "out"
         shutil.rmtree(self.out, ignore_errors=True)
         options = {**options, "device": self.device, "output": self.out,
                    "output_overwrite": None}
         try:
-            _, wall, cpu, peak = spawn([self.program, *arguments(options)])
+            front = ["mpirun", "-n", str(ranks), "--bind-to", "none"] if ranks > 1 else []
+            _, wall, cpu, peak = spawn([*front, self.program, *arguments(options)])
             summary = json.loads((self.out / "summary.json").read_text())
         except (OSError, ValueError) as error:
             raise Failed(str(error)) from error
@@ -87,7 +88,7 @@ class Machine:
                 shutil.rmtree(self.out, ignore_errors=True)
         at_work = sum(summary["wall"][part] for part in ("setup", "solve", "output"))
         return {**summary["wall"], "wall": wall, "cpu": cpu, "peak_bytes": peak,
-                "share": min(1.0, (cpu - self.start_cpu) / at_work), "summary": summary}
+                "share": min(1.0, (cpu - ranks * self.start_cpu) / at_work / ranks), "summary": summary}
 
     def close(self):
         shutil.rmtree(self.scratch, ignore_errors=True)

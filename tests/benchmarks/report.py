@@ -31,6 +31,8 @@ def line(case):
     if "points" in case:
         return (f"{name}{1e6 * case['a']:.2f} us a step and {1e6 * case['c']:.2f} us a batch: {100 * case['cost']:.4f} % with "
                 f"1,000 steps a batch; against 8,000 {100 * case['direct']:+.2f} %  {'' if case['reached'] else 'MISSED'}")
+    if "ratio" in case:
+        return f"{name}{case['ratio']:.2f} times, spread {percent(case['spread'])}  {'' if case['reached'] else 'MISSED'}"
     if "peak_gib" in case:
         return f"{name}{case['seconds']:.2f} s, {case['peak_gib']:.2f} GiB, spread {percent(case['spread'])}"
     if "forms" in case:
@@ -114,7 +116,14 @@ def setup(case):
             f"A box of {n}, general shape, one process, critical step included: **{case['seconds']:.2f} s** "
             f"(median of {sum(r['used'] for r in case['runs'])}, spread {percent(case['spread'])}) and "
             f"**{case['peak_gib']:.2f} GiB** at most over the whole run "
-            f"(bars: 20 s and 8 GiB, {'reached' if case['reached'] else '**missed**'}).\n\n")
+            f"(bars: 12 s and 8 GiB, {'reached' if case['reached'] else '**missed**'}).\n\n")
+
+
+def ranks(case):
+    return ("## Two ranks\n"
+            f"{elements(case['summary'])}, general shape, {case['steps']:,} steps: {seconds(case['one'])} on one rank, {seconds(case['two'])} on two: "
+            f"**{case['ratio']:.2f} times** (median of {sum(r['used'] for r in case['runs'])} turns, spread {percent(case['spread'])}; "
+            f"bar 1.9, {'reached' if case['reached'] else '**missed**'}).\n\n")
 
 
 def peers(cases):
@@ -152,6 +161,8 @@ def page(device, content):
     for case in good:
         if "points" in case:
             text += ts(case)
+    if "ranks" in by_name:
+        text += ranks(by_name["ranks"])
     if "setup" in by_name:
         text += setup(by_name["setup"])
     if any("forms" in c for c in good):
