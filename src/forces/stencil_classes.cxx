@@ -39,7 +39,7 @@ std::int64_t RelativeSteps(double x) {
   const double size = SizeNear(std::fabs(x));
   int exponent = 0;
   std::frexp(size, &exponent);
-  return Steps(x, size) ^ static_cast<std::int64_t>(exponent) << 48;
+  return Steps(x, size) + (std::int64_t{1} << 48) * exponent;
 }
 
 AlikeElements FindAlike(const Tables &tables, const ElementTable &t, int stride) {
