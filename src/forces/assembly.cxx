@@ -1,11 +1,10 @@
 // The stiffness of a linear scene by nodes: first which nodes couple, from the tables; then the matrices of elements and
 // springs, so many at a time that what they need stays in the caches.
-#include "forces/bodies.hpp"
-#include "forces/host_passes.hpp"
+#include "forces/element_matrices.hpp"
 #include "forces/rows.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <numeric>
 
 namespace cdem {
 namespace {
@@ -75,83 +74,30 @@ double *BlockOf(StiffnessRows *rows, int row, int column) {
   return &rows->block[9 * static_cast<std::size_t>(std::lower_bound(begin, end, column) - rows->column.begin())];
 }
 
-/// Elements [first, first + n) of a table with nodes of their own each, so that one pass answers for all.
-Tables Apart(const Tables &scene, const ElementTable &from, int first, int n) {
-  Tables t;
-  ElementTable part;
-  part.shape = from.shape;
-  part.form = from.form;
-  part.law = from.law;
-  part.corners = from.corners;
-  part.n = n;
-  part.n_pad = (n + 7) / 8 * 8;
-  part.node.resize(static_cast<std::size_t>(part.corners) * part.n_pad);
-  for (std::vector<int> *of : {&part.material, &part.region, &part.cell}) of->assign(part.n_pad, 0);
-  t.block_param.resize(static_cast<std::size_t>(kMaxParams) * part.n_pad);
-  t.n_owned = t.n_local = part.corners * part.n_pad;
-  t.x.resize(3 * static_cast<std::size_t>(t.n_local));
-  for (int e = 0; e < part.n_pad; ++e) {
-    const int of = first + std::min(e, n - 1);
-    part.material[e] = e;
-    std::copy_n(&scene.block_param[static_cast<std::size_t>(kMaxParams) * from.material[of]], kMaxParams,
-                &t.block_param[static_cast<std::size_t>(kMaxParams) * e]);
-    for (int a = 0; a < part.corners; ++a) {
-      const int i = a * part.n_pad + e;
-      part.node[i] = i;
-      std::copy_n(&scene.x[3 * static_cast<std::size_t>(from.Node(a, of))], 3, &t.x[3 * static_cast<std::size_t>(i)]);
-    }
-  }
-  t.elements = {std::move(part)};
-  return t;
-}
-
-/// Adds elements [first, first + n): the columns of their matrices are their forces on unit displacements.
+/// Adds elements [first, first + n).
 void AddElements(const Tables &scene, const ElementTable &table, int first, int n, StiffnessRows *rows) {
-  const Tables apart = Apart(scene, table, first, n);
-  const int corners = table.corners, pad = apart.elements[0].n_pad;
-  const std::size_t size = apart.x.size();
-  std::vector<ElementHistories> none = StartElements(apart);
-  std::vector<double> u(size), columns(3 * corners * size, 0.0);
-  for (int b = 0; b < corners; ++b)
-    for (int j = 0; j < 3; ++j) {
-      for (int e = 0; e < pad; ++e) u[3 * (static_cast<std::size_t>(b) * pad + e) + j] = 1;
-      HostElements(apart, u.data(), nullptr, 0, 0, none, &columns[(3 * b + j) * size]);
-      for (int e = 0; e < pad; ++e) u[3 * (static_cast<std::size_t>(b) * pad + e) + j] = 0;
-    }
-  for (int e = 0; e < n; ++e)
-    for (int a = 0; a < corners; ++a)
-      for (int b = 0; b < corners; ++b) {
-        double *block = BlockOf(rows, table.Node(a, first + e), table.Node(b, first + e));
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j)
-            block[3 * i + j] += columns[(3 * b + j) * size + 3 * (static_cast<std::size_t>(a) * pad + e) + i];
+  std::vector<int> elements(n);
+  std::iota(elements.begin(), elements.end(), first);
+  const std::vector<double> matrices = ElementMatrices(scene, table, elements);
+  const double *from = matrices.data();
+  for (int e = first; e < first + n; ++e)
+    for (int a = 0; a < table.corners; ++a)
+      for (int b = 0; b < table.corners; ++b, from += 9) {
+        double *block = BlockOf(rows, table.Node(a, e), table.Node(b, e));
+        for (int i = 0; i < 9; ++i) block[i] += from[i];
       }
 }
 
 void AddSprings(const SpringTable &t, StiffnessRows *rows) {
-  const std::size_t stride = t.n_pad;
   for (int i = 0; i < t.n; ++i) {
+    const std::array<double, 9> matrix = SpringMatrix(t, i);
     double *bb = BlockOf(rows, t.b[i], t.b[i]), *ba = BlockOf(rows, t.b[i], t.a[i]);
     double *ab = BlockOf(rows, t.a[i], t.b[i]), *aa = BlockOf(rows, t.a[i], t.a[i]);
-    for (int j = 0; j < 3; ++j) {
-      Spring<double> s;
-      double force[3] = {0, 0, 0};
-      for (int k = 0; k < 3; ++k) {
-        s.d[k] = k == j;
-        s.normal[k] = t.normal[k * stride + i];
-      }
-      s.kn = t.kn[i];
-      s.ks = t.ks[i];
-      JointLaws::Visit(t.law, [&](auto law) {
-        if constexpr (decltype(law)::kLinear) SpringForce<decltype(law), false>(s, force);
-      });
-      // force is what acts on b when b has moved; the internal force is its opposite
-      for (int k = 0; k < 3; ++k) {
-        bb[3 * k + j] -= force[k];
-        ba[3 * k + j] += force[k];
-        ab[3 * k + j] += force[k];
-        aa[3 * k + j] -= force[k];
-      }
+    for (int k = 0; k < 9; ++k) {
+      bb[k] += matrix[k];
+      ba[k] -= matrix[k];
+      ab[k] -= matrix[k];
+      aa[k] += matrix[k];
     }
   }
 }

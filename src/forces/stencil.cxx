@@ -1,7 +1,7 @@
 #include "forces/stencil.hpp"
 
+#include "forces/element_matrices.hpp"
 #include "forces/rows.hpp"
-#include "forces/spring_body.hpp"
 #include "forces/stencil_scene.hpp"
 
 #include <algorithm>
@@ -24,7 +24,6 @@ class Planner {
   template <class Where>
   Sign128 SignOf(int node, Where &&where) const;
   void MakeClass(const std::vector<int> &nodes, bool listed);
-  void AddSpring(const Part &p, double block[2][9]) const;
 
   const Tables &t_;
   StencilScene scene_;
@@ -54,28 +53,6 @@ Sign128 Planner::SignOf(int node, Where &&where) const {
   return sign;
 }
 
-/// Stiffness of a spring between its own end and both. [out] block: of end a, of end b.
-void Planner::AddSpring(const Part &p, double block[2][9]) const {
-  const SpringTable &t = scene_.SpringsOf(p);
-  const std::size_t stride = t.n_pad;
-  for (int j = 0; j < 3; ++j) {
-    Spring<double> s;
-    double force[3] = {0, 0, 0};
-    for (int k = 0; k < 3; ++k) {
-      s.d[k] = k == j;
-      s.normal[k] = t.normal[k * stride + p.row];
-    }
-    s.kn = t.kn[p.row];
-    s.ks = t.ks[p.row];
-    JointLaws::Visit(t.law, [&](auto law) {
-      if constexpr (decltype(law)::kLinear) SpringForce<decltype(law), false>(s, force);
-    });
-    // force is what acts on b when b has moved; the internal force is its opposite
-    for (int end = 0; end < 2; ++end)
-      for (int k = 0; k < 3; ++k) block[end][3 * k + j] += end == p.corner ? -force[k] : force[k];
-  }
-}
-
 /// [in] nodes: with one row. listed: their neighbours are listed one by one.
 void Planner::MakeClass(const std::vector<int> &nodes, bool listed) {
   StencilClass c;
@@ -100,10 +77,10 @@ void Planner::MakeClass(const std::vector<int> &nodes, bool listed) {
       for (int b = 0; b < e.corners; ++b)
         for (int m = 0; m < 9; ++m) entry(e.Node(b, p.row))[m] += matrix[9 * b + m];
     } else {
-      double block[2][9] = {};
-      AddSpring(p, block);
       const SpringTable &s = scene_.SpringsOf(p);
-      for (int m = 0; m < 9; ++m) entry(s.a[p.row])[m] += block[0][m], entry(s.b[p.row])[m] += block[1][m];
+      const std::array<double, 9> matrix = SpringMatrix(s, p.row);
+      const int other = p.corner == 0 ? s.b[p.row] : s.a[p.row];
+      for (int m = 0; m < 9; ++m) entry(node)[m] += matrix[m], entry(other)[m] -= matrix[m];
     }
   }
   std::vector<int> places;

@@ -42,8 +42,4 @@ std::string PlanStencil(const Tables &tables, int pad, bool any, StencilPlan *pl
 /// "stencils of 27 nodes' rows for 1,331 nodes" for the header.
 std::string StencilText(const StencilPlan &plan);
 
-/// Stiffness of some elements of a table: by the bodies of the loops, on one unit displacement after the other.
-/// [in] elements: rows of the table. Returns [element][corner of the force][corner of the displacement][3][3] N/m.
-std::vector<double> ElementMatrices(const Tables &tables, const ElementTable &table, const std::vector<int> &elements);
-
 }  // namespace cdem
