@@ -21,7 +21,7 @@ static constexpr std::size_t kOverlapSlots = 1000000;
 
 CudaBackend::~CudaBackend() {
   graphs_.Drop();
-  if (launch_.stream && !t_.halo) cudaStreamDestroy(launch_.stream);
+  if (launch_.stream && launch_.stream != PetscDefaultCudaStream) cudaStreamDestroy(launch_.stream);
   if (unit_ != MPI_DATATYPE_NULL) MPI_Type_free(&unit_);
 }
 
@@ -32,8 +32,9 @@ PetscErrorCode CudaBackend::Create(bool audit, const std::string &way) {
   PetscCall(v_.Allocate(3 * static_cast<std::size_t>(t_.n_local)));
   PetscCall(batch_.Allocate(1));
   PetscCall(state_.Allocate());
-  // One rank: a stream of our own, which can be captured. Several: PETSc's, on which PetscSF packs and unpacks.
-  if (t_.halo)
+  // One rank: a stream of our own, which can be captured. Several: PETSc's, on which PetscSF packs and unpacks; and so
+  // where PETSc multiplies.
+  if (t_.halo || way == "assembled")
     launch_.stream = PetscDefaultCudaStream;
   else
     CdemCuda(cudaStreamCreateWithFlags(&launch_.stream, cudaStreamNonBlocking));
@@ -41,7 +42,7 @@ PetscErrorCode CudaBackend::Create(bool audit, const std::string &way) {
   PetscBool timed = PETSC_FALSE;
   PetscCall(PetscOptionsHasName(nullptr, nullptr, "-log_view_gpu_time", &timed));
   launch_.timed = timed;
-  launch_.overlap = !t_.halo && !timed && t_.n_slots < kOverlapSlots;
+  launch_.overlap = launch_.stream != PetscDefaultCudaStream && !timed && t_.n_slots < kOverlapSlots;
   PetscCall(ChooseWay(way));
   LaunchArgs load = launch_;
   load.load = true;
@@ -57,8 +58,8 @@ std::string CudaBackend::Name() const {
   return properties.name;
 }
 std::size_t CudaBackend::Bytes() const {
-  return (rows_ ? rows_->Bytes() : 0) + tables_.Bytes() + u_.bytes() + v_.bytes() + schedule_.bytes() +
-         history_.bytes();
+  return (rows_ ? rows_->Bytes() : 0) + (stencil_ ? stencil_->Bytes() : 0) + (assembled_ ? assembled_->Bytes() : 0) +
+         tables_.Bytes() + u_.bytes() + v_.bytes() + schedule_.bytes() + history_.bytes();
 }
 
 PetscErrorCode CudaBackend::CreateVecs(Vec *u, Vec *v) {
@@ -83,7 +84,9 @@ PetscErrorCode CudaBackend::Advance(const Batch &batch, Failure *failure) {
   PetscCall(Prepare(batch));
   const NodeView nodes = View();
   int done = 0;
-  if (t_.halo || launch_.timed) {
+  if (assembled_) {
+    PetscCall(assembled_->Run(nodes, batch, batch_.get()));
+  } else if (t_.halo || launch_.timed) {
     for (; done < batch.n; ++done) {
       PetscCall(Halo());
       PetscCall(tables_.LaunchStep(nodes, done == 0 ? batch.first : batch.rest, batch_.get(), launch_));
@@ -95,8 +98,11 @@ PetscErrorCode CudaBackend::Advance(const Batch &batch, Failure *failure) {
     }
     if (rows_)
       PetscCall(rows_->Run(nodes, batch.rest, batch_.get(), done, batch.n - done, launch_.stream));
+    else if (stencil_)
+      PetscCall(stencil_->Run(nodes, batch.rest, batch_.get(), done, batch.n - done, launch_));
     else
-      PetscCall(graphs_.Run(&tables_, nodes, batch.rest, batch_.get(), launch_, batch.n - done));
+      PetscCall(graphs_.Run(batch.rest, launch_.stream, batch.n - done,
+                            [&] { return tables_.LaunchStep(nodes, batch.rest, batch_.get(), launch_); }));
   }
   CdemCuda(cudaMemcpyAsync(state_.get(), batch_.get(), sizeof(BatchState), cudaMemcpyDeviceToHost, launch_.stream));
   if (t_.n_watch > 0)
@@ -149,23 +155,43 @@ PetscErrorCode CudaBackend::Synchronize() {
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/// The rows where a scene can go that way: they are the faster one wherever they fit.
+/// The rows where a scene can go that way, then the stencils: each is the faster one wherever it fits.
 PetscErrorCode CudaBackend::ChooseWay(const std::string &way) {
   PetscFunctionBeginUser;
   if (way == "reference") PetscFunctionReturn(PETSC_SUCCESS);
-  auto rows = std::make_unique<RowsWay>();
-  std::string why = launch_.timed       ? "-log_view_gpu_time"
-                    : tables_.audited() ? "the energy balance is kept (-monitor_energy)"
-                                        : "";
-  if (why.empty()) PetscCall(rows->Create(t_, &why));
-  CdemCheck(way == "auto" || why.empty(), t_.comm, "-central_way rows: this scene cannot go that way: %s", why.c_str());
-  if (why.empty()) {
-    way_ = {"rows", "assembled rows in the registers of " + std::to_string(rows->n_blocks()) +
-                        (rows->n_blocks() == 1 ? " thread block" : " thread blocks, one cluster")};
-    rows_ = std::move(rows);
-  } else {
-    way_.text += " (not rows: " + why + ")";
+  if (way == "assembled") {
+    assembled_ = std::make_unique<CudaAssembledWay>();
+    PetscCall(assembled_->Create(t_, tables_.audited(), u_.get()));
+    way_ = assembled_->way();
+    PetscFunctionReturn(PETSC_SUCCESS);
   }
+  const std::string none = launch_.timed       ? "-log_view_gpu_time"
+                           : tables_.audited() ? "the energy balance is kept (-monitor_energy)"
+                                               : "";
+  std::string why = none;
+  if (why.empty() && way != "stencil") {
+    auto rows = std::make_unique<RowsWay>();
+    PetscCall(rows->Create(t_, &why));
+    if (why.empty()) {
+      way_ = {"rows", "assembled rows in the registers of " + std::to_string(rows->n_blocks()) +
+                          (rows->n_blocks() == 1 ? " thread block" : " thread blocks, one cluster")};
+      rows_ = std::move(rows);
+      PetscFunctionReturn(PETSC_SUCCESS);
+    }
+  }
+  std::string text = why.empty() ? "" : "not rows: " + why;
+  if (none.empty() && way != "rows") {
+    auto stencil = std::make_unique<StencilWay>();
+    PetscCall(stencil->Create(t_, way == "stencil", &why));
+    if (why.empty()) {
+      way_ = {"stencil", stencil->Text()};
+      stencil_ = std::move(stencil);
+      PetscFunctionReturn(PETSC_SUCCESS);
+    }
+    text += "; not stencil: " + why;
+  }
+  CdemCheck(way == "auto", t_.comm, "-central_way %s: this scene cannot go that way: %s", way.c_str(), why.c_str());
+  way_.text += " (" + text + ")";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -176,6 +202,7 @@ PetscErrorCode CudaBackend::Reserve(int n) {
   const std::size_t history = 6 * static_cast<std::size_t>(t_.n_watch) * n;
   if (schedule > schedule_.size() || history > history_.size()) {
     graphs_.Drop();  // they hold the old addresses
+    if (stencil_) stencil_->Drop();
     PetscCall(schedule_.Allocate(schedule));
     scheduled_ = 0;
     PetscCall(history_.Allocate(history));

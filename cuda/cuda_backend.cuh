@@ -1,8 +1,10 @@
 // The GPU backend: the reference way, captured in CUDA graphs on one rank, with a halo exchange a step on several; or the
-// rows, in scenes that have them.
+// rows or stencils, in scenes that have them.
 #pragma once
+#include "cuda/assembled_way.cuh"
+#include "cuda/device_tables.cuh"
 #include "cuda/rows_way.cuh"
-#include "cuda/step_graph.cuh"
+#include "cuda/stencil_way.cuh"
 
 #include <memory>
 
@@ -61,6 +63,8 @@ class CudaBackend final : public Backend {
   Vec vec_u_ = nullptr, vec_v_ = nullptr;  // borrowed
   StepGraphs graphs_;
   std::unique_ptr<RowsWay> rows_;  // where the scene goes that way
+  std::unique_ptr<StencilWay> stencil_;
+  std::unique_ptr<CudaAssembledWay> assembled_;  // where the user asks for it
   Way way_;
   MPI_Datatype unit_ = MPI_DATATYPE_NULL;
   std::vector<double> host_u_, host_v_;

@@ -1,6 +1,10 @@
 // Equal steps recorded once and replayed, so that the host has little to launch.
 #pragma once
-#include "cuda/device_tables.cuh"
+#include "core/petsc.hpp"
+#include "forces/node_step.hpp"
+
+#include <cuda_runtime.h>
+#include <functional>
 
 namespace cdem {
 
@@ -13,17 +17,19 @@ class StepGraphs {
   StepGraphs &operator=(const StepGraphs &) = delete;
   ~StepGraphs() { Drop(); }
 
-  /// Launches n equal steps. [in] nodes, args: a change of args makes the graphs anew; of addresses, see Drop.
-  PetscErrorCode Run(DeviceTables *tables, const NodeView &nodes, const StepArgs &args, BatchState *batch,
-                     const LaunchArgs &launch, int n);
+  /// Launches n equal steps. [in] args: a change of them makes the graphs anew; of addresses, see Drop. step: launches one
+  /// on the stream.
+  PetscErrorCode Run(const StepArgs &args, cudaStream_t stream, int n, const std::function<PetscErrorCode()> &step);
+  /// Steps that are launched one by one before the graphs, which hold an even number of them.
+  static int Singles(int n) { return n % kShort; }
   /// Forgets the graphs, which hold the addresses they were made with.
   void Drop();
 
  private:
   static constexpr int kShort = 8, kLong = 64;  ///< steps
   static constexpr int kWorthwhile = 200;       ///< steps of new args from which on graphs are made at once
-  PetscErrorCode Capture(int steps, DeviceTables *tables, const NodeView &nodes, const StepArgs &args,
-                         BatchState *batch, const LaunchArgs &launch, cudaGraphExec_t *exec);
+  PetscErrorCode Capture(int steps, cudaStream_t stream, const std::function<PetscErrorCode()> &step,
+                         cudaGraphExec_t *exec);
 
   cudaGraphExec_t short_ = nullptr, long_ = nullptr;
   StepArgs args_;

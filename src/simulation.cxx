@@ -142,8 +142,6 @@ PetscErrorCode Simulation::ChooseDevice() {
   CdemCheck(!cuda, comm_, "-device cuda: this cdem was built without CUDA; build it with ./bootstrap build --cuda");
 #endif
   CdemCheck(way_ != "rows" || cuda, comm_, "-central_way rows is a way of GPUs: use -device cuda, or leave it out");
-  CdemCheck((way_ != "stencil" && way_ != "assembled") || !cuda, comm_,
-            "-central_way %s is a way of CPUs: use -device cpu, or leave it out", way_.c_str());
   device_ = cuda ? "cuda" : "cpu";
   PetscFunctionReturn(PETSC_SUCCESS);
 }

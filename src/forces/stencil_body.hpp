@@ -25,7 +25,7 @@ CDEM_HD void MoveFree(const StepArgs &s, double inverse_mass, const T f[3], T u[
 CDEM_HD void MoveRecorded(const NodeView &n, const StepArgs &s, int row, int step, double inverse_mass,
                           const double f[3], double u[3], double v[3]) {
   const double *now = n.schedule + 3 * static_cast<long long>(step) * n.n_tables;
-  for (int k = 0; k < 3; ++k) {
+  CDEM_UNROLL for (int k = 0; k < 3; ++k) {
     const double a = AccelerationOf<true, false>(n, s.gravity[k], -1, row, k, now, inverse_mass, f[k]);
     double v_old = v[k];
     v[k] = VelocityOf<true>(n, s, row, k, now, a, u[k], &v_old);
