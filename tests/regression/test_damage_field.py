@@ -19,7 +19,7 @@ def column(folder, law, turning):
     meshes.hexahedra(folder / "column.msh", (0, 1), (0, 1), (0, 1, 2, 3), lambda centre: "abc"[int(centre[2])],
                      lambda name, centre: None if name[0] == "z" else f"sides_{'abc'[int(centre[2])]}")
     path = [(0, 0.0), (10, turning * END), (20, 0.0), (STEPS, 1.2 * END)]
-    (folder / "path.txt").write_text("".join(f"{step * STEP!r} {value!r}\n" for step, value in path))
+    (folder / "path.txt").write_text("".join(f"{step * STEP!r} {float(value)!r}\n" for step, value in path))
     drive = np.interp(np.arange(STEPS + 1), *zip(*path))
     options = {
         "mesh": folder / "column.msh", "block_young": 1e9, "block_poisson": 0.25, "block_density": 2000.0,

@@ -55,7 +55,7 @@ def dilation_constant_load(lab):
     mesh, table = lab.path("free.msh"), lab.path("free.txt")
     meshes.hexahedra(mesh, (0, 1), (0, 1), (0, 1, 2), lambda centre: "lower" if centre[2] < 1 else "upper",
                      lambda name, centre: name if name[0] == "z" else "below" if centre[2] < 1 else "above")
-    table.write_text(f"0 0\n{settle!r} 0\n{end!r} {shift!r}\n")
+    table.write_text(f"0 0\n{float(settle)!r} 0\n{float(end)!r} {float(shift)!r}\n")
     results = lab.run({
         "mesh": mesh, "block_law": "elastic", "block_young": 1e10, "block_poisson": 0.25, "block_density": density,
         "interfaces": "joint", "interface_joint_on": "between:lower:upper", "interface_joint_law": "brittle",

@@ -13,7 +13,7 @@ def pair(lab, path):
     mesh, table = lab.path("pair.msh"), lab.path("path.txt")
     meshes.hexahedra(mesh, (0, 1), (0, 1), (0, 1, 2), lambda centre: "lower" if centre[2] < 1 else "upper",
                      lambda name, centre: None if name[0] == "z" else "below" if centre[2] < 1 else "above")
-    table.write_text("".join(f"{leg * LEG * STEP!r} {value!r}\n" for leg, value in path))
+    table.write_text("".join(f"{leg * LEG * STEP!r} {float(value)!r}\n" for leg, value in path))
     steps = path[-1][0] * LEG
     drive = np.interp(np.arange(steps + 1) / LEG, *zip(*path))
     return drive, {

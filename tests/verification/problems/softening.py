@@ -75,7 +75,7 @@ def softening_pair(lab, path):
     options.update({f"interface_joint_{key}": value for key, value in SOFTENING.items()})
     options.update({"interface_joint_kn": 200 * NORMAL, "interface_joint_ks": 200 * SHEAR, "ts_dt": 2e-6,
                     "table_path_file": lab.path("fast.txt")})
-    lab.path("fast.txt").write_text("".join(f"{leg * 100 * 2e-6!r} {value!r}\n" for leg, value in path))
+    lab.path("fast.txt").write_text("".join(f"{leg * 100 * 2e-6!r} {float(value)!r}\n" for leg, value in path))
     return drive, options
 
 
