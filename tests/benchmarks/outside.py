@@ -20,27 +20,33 @@ LONG = 3600                       # s, one run of a slow one
 MALLOC = {"MALLOC_TRIM_THRESHOLD_": "4294967296", "MALLOC_MMAP_THRESHOLD_": "4294967296", "MALLOC_TOP_PAD_": "268435456"}
 
 
-def python_with(modules, more=()):
-    """The first Python that imports all of the modules, or None."""
+def python_with(*modules, more=()):
+    """The first Python that has all of the modules, and for torch a GPU; or None."""
+    test = "import " + ", ".join(modules) + ("; assert torch.cuda.is_available()" if "torch" in modules else "")
     for python in (*more, sys.executable, "/usr/bin/python3", "python3"):
         try:
-            if subprocess.run([python, "-c", f"import {modules}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0:
+            if subprocess.run([python, "-c", test], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0:
                 return str(python)
         except OSError:
             pass
     return None
 
 
-def assembled(folder, scene, repeat):
-    """The assembled stiffness (peer.py) on the mesh of a run of cdem, whose frames are in the folder."""
-    python = python_with("numpy, scipy, h5py")
-    if not python:
-        raise Failed("no Python here has numpy, scipy and h5py")
-    done = subprocess.run([python, "-B", HERE / "peer.py", folder, json.dumps(scene), str(repeat)], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True, env=dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1"))
+def python(interpreter, *words):
+    """What a script of this folder prints, on one core."""
+    done = subprocess.run([interpreter, "-B", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=HERE,
+                          env=dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1"))
     if done.returncode:
         raise Failed(done.stderr.strip()[-600:])
-    return json.loads(done.stdout)
+    return done.stdout
+
+
+def assembled(folder, scene, repeat):
+    """The assembled stiffness (peer.py) on the mesh of a run of cdem, whose frames are in the folder."""
+    interpreter = python_with("numpy", "scipy", "h5py")
+    if not interpreter:
+        raise Failed("no Python here has numpy, scipy and h5py")
+    return json.loads(python(interpreter, HERE / "peer.py", folder, json.dumps(scene), str(repeat)))
 
 
 def last_frame(folder):
@@ -57,7 +63,7 @@ class Akantu:
     name, get = "Akantu", f"python3 -m venv {PEERS.relative_to(ROOT)} && {PEERS.relative_to(ROOT)}/bin/pip install akantu"
 
     def __init__(self, folder, python=None):
-        self.folder, self.python = Path(folder), python_with("akantu", [python or PEERS / "bin" / "python"])
+        self.folder, self.python = Path(folder), python_with("akantu", more=[python or PEERS / "bin" / "python"])
         if not self.python:
             raise Failed(f"Akantu is missing; to get it: {self.get} (or --akantu PYTHON)")
         self.version = subprocess.run([self.python, "-c", "import importlib.metadata as m; print(m.version('akantu'))"],

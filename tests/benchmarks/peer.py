@@ -7,9 +7,7 @@ largest difference of the end state from cdem's, over the largest displacement. 
 
 It assembles from the frame's points and cells by its own code (8-node hexahedra, 2x2x2 Gauss points), folds dt^2, mass
 and support into the matrix, and so needs one product and two sums a step: the cheapest form of this way."""
-import ctypes
 import json
-import subprocess
 import sys
 import tempfile
 import time
@@ -19,28 +17,10 @@ import numpy as np
 import scipy
 import scipy.sparse as sparse
 
-from measure import median_of
-from peer_scene import element_matrices, read
-
-# A plain loop over 3x3 blocks, which the compiler sees whole: scipy's goes through a general block product.
-BSR3 = r"""
-void steps(long n, long steps, const int *first, const int *column, const double *a, const double *load,
-           double *u, double *w) {
-  for (long s = 0; s < steps; ++s) {
-    for (long i = 0; i < n; ++i) {
-      double x = 0, y = 0, z = 0;
-      for (int k = first[i]; k < first[i + 1]; ++k) {
-        const double *b = a + 9L * k, *q = u + 3L * column[k];
-        x += b[0] * q[0] + b[1] * q[1] + b[2] * q[2];
-        y += b[3] * q[0] + b[4] * q[1] + b[5] * q[2];
-        z += b[6] * q[0] + b[7] * q[1] + b[8] * q[2];
-      }
-      w[3 * i] += load[3 * i] - x, w[3 * i + 1] += load[3 * i + 1] - y, w[3 * i + 2] += load[3 * i + 2] - z;
-    }
-    for (long i = 0; i < 3 * n; ++i) u[i] += w[i];
-  }
-}
-"""
+import block_csr
+from measure import Failed, median_of
+from outside import last_frame
+from peer_scene import element_matrices
 
 
 def stiffness(points, cells, scene):
@@ -67,26 +47,19 @@ def assemble(points, cells, scene):
     return (sparse.diags(scale) @ matrix).tocsr(), load
 
 
-def compiled(folder):
-    """The loop above by the system's C compiler, or None."""
-    source, library = Path(folder) / "peer.c", Path(folder) / "peer.so"
-    source.write_text(BSR3)
-    try:
-        subprocess.run(["cc", "-O3", "-march=native", "-ffast-math", "-shared", "-fPIC", "-o", library, source], check=True)
-        return ctypes.CDLL(str(library)).steps
-    except (OSError, subprocess.CalledProcessError):
-        return None
-
-
 def main():
     folder, scene, repeat = Path(sys.argv[1]), json.loads(sys.argv[2]), int(sys.argv[3])
-    points, cells, theirs = read(folder)
+    points, cells, theirs = last_frame(folder)
+    theirs = theirs.ravel()
     start = time.perf_counter()
     matrix, load = assemble(points, cells, scene)
     assembly = time.perf_counter() - start
     blocks = matrix.tobsr((3, 3))
     scratch = tempfile.TemporaryDirectory()
-    loop = compiled(scratch.name)
+    try:
+        loop = block_csr.loop(scratch.name)
+    except Failed:  # the forms of scipy need no compiler
+        loop = None
 
     def product(a):
         u, w = np.zeros_like(load), 0.5 * load
@@ -99,11 +72,7 @@ def main():
 
     def native():
         u, w = 0.5 * load, 0.5 * load
-        double = ctypes.POINTER(ctypes.c_double)
-        integer = ctypes.POINTER(ctypes.c_int)
-        first, column = (a.astype(np.int32) for a in (blocks.indptr, blocks.indices))
-        loop(ctypes.c_long(len(points)), ctypes.c_long(scene["steps"] - 1), first.ctypes.data_as(integer),
-             column.ctypes.data_as(integer), *(a.ctypes.data_as(double) for a in (blocks.data, load, u, w)))
+        loop(blocks, scene["steps"] - 1, load, u, w)
         return u
 
     forms = {"CSR, scipy": lambda: product(matrix), "block CSR 3x3, scipy": lambda: product(blocks)}

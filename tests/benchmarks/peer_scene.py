@@ -1,16 +1,7 @@
-"""What the peers share: the frame of a finished run of cdem, and the matrices of its hexahedra by code of their own. Needs
-numpy and h5py."""
+"""Matrices of hexahedra by code of the peers' own. Needs numpy."""
 import itertools
 
-import h5py
 import numpy as np
-
-
-def read(folder):
-    """Points, cells (corners in the order of VTK) and displacements of the last frame in a folder."""
-    with h5py.File(max(folder.glob("fields_[0-9]*.hdf")), "r") as file:
-        return (file["VTKHDF/Points"][:], file["VTKHDF/Connectivity"][:].reshape(-1, 8),
-                file["VTKHDF/PointData/displacement"][:].ravel())
 
 
 def element_matrices(x, young, poisson, density):

@@ -2,17 +2,15 @@
 loops of scipy and C over such a matrix (peer.py), on the GPU PyTorch (peer_torch.py). Python's standard library only; what
 the others need is looked for in the Pythons of this machine."""
 import json
-import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 from measure import Failed, median_of, middle, used
+from outside import python, python_with
 
-DIFFERENCE = """import sys, pathlib, numpy as np
-from peer_scene import read
-ours, theirs = (read(pathlib.Path(folder))[2] for folder in sys.argv[1:])
+DIFFERENCE = """import sys
+from outside import last_frame
+ours, theirs = (last_frame(folder)[2] for folder in sys.argv[1:])
 print(abs(ours - theirs).max() / abs(theirs).max())"""
 HERE = Path(__file__).resolve().parent
 
@@ -34,23 +32,6 @@ def scenes(device, quick, box):
             ("hex_1000000", "1,000,000 general hexahedra", of(100, 640, **jitter, **given))]
 
 
-def python_with(*modules):
-    """A Python of this machine that has all of these modules, or None."""
-    test = "import " + ", ".join(modules) + ("; assert torch.cuda.is_available()" if "torch" in modules else "")
-    for python in (sys.executable, "/usr/bin/python3", "python3"):
-        if subprocess.run([python, "-c", test], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0:
-            return python
-    return None
-
-
-def spawn(python, words):
-    done = subprocess.run([python, "-B", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=HERE,
-                          env=dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1"))
-    if done.returncode:
-        raise Failed(done.stderr.strip()[-600:])
-    return done.stdout
-
-
 def form(name, runs, work):
     """A row of the table."""
     solve, spread = middle(used(runs, "solve"))
@@ -65,8 +46,8 @@ def measure(machine, name, title, options, rock, repeat, summary_of):
     """The peers on a scene and against the end state of one run of ours; ours runs again before and after them."""
     cuda, n = machine.device == "cuda", min(repeat, 3)
     reader = python_with("numpy", "h5py")
-    outside = python_with("numpy", "h5py", "torch" if cuda else "scipy")
-    missing = [] if outside else [f"no Python here has numpy, h5py and {'torch with CUDA' if cuda else 'scipy'}"]
+    outsider = python_with("numpy", "h5py", "torch" if cuda else "scipy")
+    missing = [] if outsider else [f"no Python here has numpy, h5py and {'torch with CUDA' if cuda else 'scipy'}"]
 
     def ours(more):
         return median_of(lambda: machine.run({**options, **more}), n, cuda, not cuda)
@@ -84,16 +65,16 @@ def measure(machine, name, title, options, rock, repeat, summary_of):
         summary_of(within)
         if reader:
             machine.run({**options, **assembled, "output_fields": "displacement"}, keep=True)
-            difference = float(spawn(reader, ["-c", DIFFERENCE, machine.out, theirs]))
+            difference = float(python(reader, "-c", DIFFERENCE, machine.out, theirs))
             for run in within:
                 run["difference"] = difference
         forms = [form("cdem -central_way assembled (PETSc, seqbaij)", within, work)]
         version = f"set-up of the matrix within cdem: {min(r['setup_device'] for r in within):.3g} s"
-    if outside:
+    if outsider:
         scene = {**rock, "gravity": (0, 0, -9.81), "dt": summary["dt"], "steps": summary["steps"]}
         try:
             words = [HERE / ("peer_torch.py" if cuda else "peer.py"), theirs, json.dumps(scene), str(n)]
-            result = json.loads(spawn(outside, words))
+            result = json.loads(python(outsider, *words))
             forms += [form(name, runs, work) for name, runs in result["forms"].items()]
             version += f"; {result['version']}"
         except Failed as error:  # the others count
