@@ -252,11 +252,11 @@ PetscErrorCode CopyToCuda(const Tables &tables, int n_owned_cells, std::shared_p
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode CreateCudaBackend(const Tables &tables, std::shared_ptr<DeviceTables> device, int elements_per_block,
-                                 bool audit, const std::string &way, std::unique_ptr<Backend> *backend) {
+PetscErrorCode CreateCudaBackend(const Tables &tables, std::shared_ptr<DeviceTables> device,
+                                 const BackendChoice &choice, std::unique_ptr<Backend> *backend) {
   PetscFunctionBeginUser;
-  auto made = std::make_unique<CudaBackend>(tables, std::move(device), elements_per_block);
-  PetscCall(made->Create(audit, way));
+  auto made = std::make_unique<CudaBackend>(tables, std::move(device), choice);
+  PetscCall(made->Create(choice.audit, choice.way));
   *backend = std::move(made);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -12,9 +12,10 @@ namespace cdem {
 
 class CudaBackend final : public Backend {
  public:
-  CudaBackend(const Tables &tables, std::shared_ptr<DeviceTables> device, int block)
+  CudaBackend(const Tables &tables, std::shared_ptr<DeviceTables> device, const BackendChoice &choice)
       : t_(tables), device_(std::move(device)), tables_(*device_) {
-    launch_.block = block;
+    launch_.block = choice.elements_per_block;
+    launch_.single = choice.single;
   }
   ~CudaBackend() override;
 

@@ -10,6 +10,7 @@ struct LaunchArgs {
   int block = 32;        ///< threads of the element kernels
   bool overlap = false;  ///< a kernel may begin while the one before it ends
   bool timed = false;    ///< every phase in its log event, waited for
+  bool single = false;   ///< arithmetic of elements in single precision
   bool load = false;     ///< nothing is launched: the code of the kernels is brought to the GPU, which takes a while
   cudaStream_t stream = nullptr;
 };

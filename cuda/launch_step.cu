@@ -1,6 +1,7 @@
 // The kernels of one step.
 #include "core/events.hpp"
 #include "cuda/device_tables.cuh"
+#include "cuda/single_kernels.cuh"
 #include "forces/elastic_operator.hpp"
 
 namespace cdem {
@@ -27,6 +28,8 @@ static PetscErrorCode LaunchForces(const ElementTable &t, int law, const Element
     using Form = decltype(form);
     using Law = decltype(block);
     auto kernel = view.beta != 0 ? ElementKernel<Form, Law, true> : ElementKernel<Form, Law, false>;
+    if constexpr (kHasSingle<Form, Law>)
+      if (launch.single) kernel = view.beta != 0 ? SingleElementKernel<Form, true> : SingleElementKernel<Form, false>;
     ierr = Launch(kernel, Blocks(t.n, launch.block), launch.block, launch, view, batch, first);
   });
   PetscCall(ierr);

@@ -40,7 +40,7 @@ PetscErrorCode Simulation::PrintHeader() {
                         ));
   PetscCall(line("device", backend_->Name() + ", " + std::to_string(ranks) + (ranks > 1 ? " ranks" : " rank")));
   PetscCall(line("way", backend_->WayOfStep().name + ": " + backend_->WayOfStep().text));
-  PetscCall(line("elements", Names(n_cells_)));
+  PetscCall(line("elements", Names(n_cells_) + (single_ ? ", in single precision" : "")));
   PetscCall(line("nodes", std::to_string(nodes_.n_global) + " in " + std::to_string(nodes_.n_blocks) +
                               (nodes_.n_blocks == 1 ? " block" : " blocks")));
   if (n_interface_faces_ > 0)
@@ -136,6 +136,7 @@ nlohmann::json Simulation::Summary() const {
   s["petsc"] = PetscVersion();
   s["device"] = backend_->Name();
   s["way"] = backend_->WayOfStep().name;
+  s["precision"] = single_ ? "single" : "double";
   s["ranks"] = ranks;
   s["elements"] = elements;
   s["nodes"] = nodes_.n_global;

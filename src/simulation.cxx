@@ -143,6 +143,13 @@ PetscErrorCode Simulation::ChooseDevice() {
 #endif
   CdemCheck(way_ != "rows" || cuda, comm_, "-central_way rows is a way of GPUs: use -device cuda, or leave it out");
   device_ = cuda ? "cuda" : "cpu";
+  std::string precision = "double";
+  PetscCall(options_.Word("precision", &precision));
+  single_ = precision == "single";
+  CdemCheck(!single_ || way_ == "auto" || way_ == "reference", comm_,
+            "-precision single and -central_way %s: that way is one of double precision; leave one of them out",
+            way_.c_str());
+  if (single_) way_ = "reference";
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -159,12 +166,11 @@ PetscErrorCode Simulation::CopyToDevice() {
 PetscErrorCode Simulation::CreateBackend() {
   PetscFunctionBeginUser;
   PetscCall(CopyToDevice());
+  const BackendChoice choice = {book_.on, way_, single_, static_cast<int>(per_block_)};
 #ifdef CDEM_HAVE_CUDA
-  if (device_tables_)
-    PetscCall(
-        CreateCudaBackend(tables_, std::move(device_tables_), static_cast<int>(per_block_), book_.on, way_, &backend_));
+  if (device_tables_) PetscCall(CreateCudaBackend(tables_, std::move(device_tables_), choice, &backend_));
 #endif
-  if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), book_.on, way_, &backend_));
+  if (!backend_) PetscCall(CreateHostBackend(tables_, static_cast<int>(mesh_.n_owned), choice, &backend_));
   PetscCall(backend_->CreateVecs(&u_, &v_));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -164,6 +164,7 @@ class Simulation final : public Stepper {
   bool output_overwrite_ = false;
   PetscInt batch_ = 0, per_block_ = 32;
   std::string way_ = "auto";
+  bool single_ = false;  ///< arithmetic of elements in single precision
   bool batch_given_ = false;
   Interval frame_interval_;
   Monitors monitors_;

@@ -4,6 +4,7 @@
 #include "core/petsc_refusal.hpp"
 #include "forces/params.hpp"
 #include "forces/references.hpp"
+#include "forces/single_check.hpp"
 #include "loads/supports.hpp"
 #include "simulation.hpp"
 
@@ -35,6 +36,15 @@ PetscErrorCode Simulation::BuildStage() {
     local_ = 0.8;
   tables_.damped = local_ > 0 || (scene.relax && scene.relaxation.scaling);
   tables_.combined = scene.relax && damping == RelaxDamping::kCombined;
+  if (single_) {
+    const std::string why = WhyNotSingle(tables_, book_.on);
+    PetscCall(CheckFailure(comm_, why.empty() ? why : "-precision single: this scene needs double precision: " + why));
+    CdemCheck(
+        !scene.relax || scene.relaxation.ratio >= 1e-6, comm_,
+        "-precision single and -relax_ratio %g: the rounding of the elements' forces alone leaves more than that out "
+        "of balance; give 1e-6 or more",
+        scene.relaxation.ratio);
+  }
   PetscCall(BuildRecords(mesh_, nodes_, scene.boundaries, scene.materials, removed, histories_, &tables_));
   PetscCall(input_.Begin(tables_));
   PetscCall(CountStage());

@@ -131,6 +131,7 @@ static std::vector<OptionSpec> &Registry() {
       {"restart", T::kText, "", "", "starts from this checkpoint of the same scene; in its own folder (`-output`) histories and frames go on", ""},
 
       {"device", T::kWord, "", "auto", "where it is computed; auto: cuda if this build and machine have it", "auto,cpu,cuda"},
+      {"precision", T::kWord, "", "double", "arithmetic of elements. single: faster in large elastic scenes, by the reference way; positions, displacements, velocities and sums stay double", "double,single"},
       {"central_way", T::kWord, "", "auto", "way of computing a step; assembled: a product with the stiffness as a matrix of PETSc, to compare with, which auto never takes", "auto,reference,rows,stencil,assembled"},
       {"central_mat_type", T::kText, "", "baij", "type of the matrix of `-central_way assembled`, in PETSc's words", ""},
       {"elements_per_block", T::kInt, "", "32", "elements that a thread block of the GPU takes; a multiple of 32 from 32 to 256", ""},

@@ -89,9 +89,16 @@ class Backend {
   virtual PetscErrorCode Synchronize() = 0;
 };
 
-/// [in] audit: energies are followed from step to step. way: its name, or "auto" for the fastest that the scene has.
+/// How a backend computes.
+struct BackendChoice {
+  bool audit = false;           ///< energies are followed from step to step
+  std::string way = "auto";     ///< its name, or "auto" for the fastest that the scene has
+  bool single = false;          ///< arithmetic of elements in single precision, in the reference way
+  int elements_per_block = 32;  ///< of a GPU
+};
+
 /// Errors: a way that the scene cannot go.
-PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, bool audit, const std::string &way,
+PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, const BackendChoice &choice,
                                  std::unique_ptr<Backend> *backend);
 
 /// At u(n), from host copies: v(n) [n_owned][3], and the element and spring results. Used by every backend for frames,
@@ -112,9 +119,9 @@ PetscErrorCode CopyToCuda(const Tables &tables, int n_owned_cells, std::shared_p
 /// The matrix of CreateElasticOperator for Vecs of the GPU (collective); histories on the device are not touched.
 /// [in] device: the copy of these tables, still without history; it is shared, not copied again.
 PetscErrorCode CreateCudaElasticOperator(const Tables &tables, std::shared_ptr<DeviceTables> device, Mat *matrix);
-/// [in] device: the copy of these tables, which the backend steps on. [in] way: its name, or "auto" for the fastest that the scene has. Errors: a way that the scene cannot go.
-PetscErrorCode CreateCudaBackend(const Tables &tables, std::shared_ptr<DeviceTables> device, int elements_per_block,
-                                 bool audit, const std::string &way, std::unique_ptr<Backend> *backend);
+/// [in] device: the copy of these tables, which the backend steps on. Errors: a way that the scene cannot go.
+PetscErrorCode CreateCudaBackend(const Tables &tables, std::shared_ptr<DeviceTables> device,
+                                 const BackendChoice &choice, std::unique_ptr<Backend> *backend);
 #endif
 
 }  // namespace cdem

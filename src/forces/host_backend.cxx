@@ -90,13 +90,13 @@ namespace {
 
 class HostBackend final : public Backend {
  public:
-  HostBackend(const Tables &tables, int n_owned_cells, bool audit)
-      : t_(tables), n_owned_cells_(n_owned_cells), u_(3 * static_cast<std::size_t>(tables.n_local), 0.0), v_(u_),
-        f_(u_) {
+  HostBackend(const Tables &tables, int n_owned_cells, const BackendChoice &choice)
+      : t_(tables), n_owned_cells_(n_owned_cells), single_(choice.single),
+        u_(3 * static_cast<std::size_t>(tables.n_local), 0.0), v_(u_), f_(u_) {
     history_.elements = StartElements(tables);
     history_.springs = StartSprings(tables);
     StartAccelerations();
-    if (audit) audit_ = StartAudit(tables);
+    if (choice.audit) audit_ = StartAudit(tables);
   }
 
   std::string Name() const override {
@@ -174,7 +174,7 @@ class HostBackend final : public Backend {
         if (assembled_) return assembled_->Forces(v_.data());
         std::fill(f_.begin(), f_.end(), 0.0);
         const double time = StepEnd(batch.base, batch.offset, step, batch.rest.dt);
-        HostElements(t_, u_.data(), v_.data(), t_.beta, time, history_.elements, f_.data(), audit);
+        HostElements(t_, u_.data(), v_.data(), t_.beta, time, history_.elements, f_.data(), audit, single_);
         return PETSC_SUCCESS;
       }));
       if (t_.releases) PetscCall(ReleaseSprings(t_, history_.elements, &released_, &history_.springs));
@@ -315,6 +315,7 @@ class HostBackend final : public Backend {
 
   const Tables &t_;
   int n_owned_cells_;
+  bool single_;
   std::vector<double> u_, v_, f_;
   Histories history_;
   std::unique_ptr<HostStencil> stencil_;     // where the scene goes that way
@@ -330,11 +331,11 @@ class HostBackend final : public Backend {
 
 }  // namespace
 
-PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, bool audit, const std::string &way,
+PetscErrorCode CreateHostBackend(const Tables &tables, int n_owned_cells, const BackendChoice &choice,
                                  std::unique_ptr<Backend> *backend) {
   PetscFunctionBeginUser;
-  auto made = std::make_unique<HostBackend>(tables, n_owned_cells, audit);
-  PetscCall(made->ChooseWay(way));
+  auto made = std::make_unique<HostBackend>(tables, n_owned_cells, choice);
+  PetscCall(made->ChooseWay(choice.way));
   *backend = std::move(made);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

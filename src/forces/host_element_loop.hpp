@@ -20,6 +20,7 @@ struct ElementPass {
   ElementResults *results;  ///< NULL but in observing passes
   Averages *averages;       ///< of forms that average
   const AuditPass *audit;   ///< NULL: the energy audit is off
+  bool single = false;      ///< arithmetic of elements in single precision
 };
 
 /// Takes the dilatations of u and beta v from the nodes.

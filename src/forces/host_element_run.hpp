@@ -2,7 +2,7 @@
 // for each shape (host_elements_<shape>.cxx).
 #pragma once
 #include "forces/element_audit.hpp"
-#include "forces/host_element_loop.hpp"
+#include "forces/host_element_single.hpp"
 
 namespace cdem {
 
@@ -95,6 +95,8 @@ void RunElements(const ElementPass &pass, const ElementTable &t, ElementHistorie
       } else if (audit) {
         AuditLoop<Form, Law>(pass, t, h);
       } else if constexpr (Law::kLinear) {  // damping acts inside the law
+        if constexpr (kHasSingle<Form, Law>)
+          if (pass.single) return (pass.beta != 0 ? SingleLoop<Form, true> : SingleLoop<Form, false>)(pass, t);
         auto loop = pass.beta != 0
                         ? (pass.results ? ElementLoop<Form, Law, true, true> : ElementLoop<Form, Law, true, false>)
                         : (pass.results ? ElementLoop<Form, Law, false, true> : ElementLoop<Form, Law, false, false>);

@@ -39,8 +39,8 @@ static void Elements(ElementPass pass, std::vector<ElementHistories> &history) {
 }
 
 void HostElements(const Tables &tables, const double *u, const double *v, double beta, double time,
-                  std::vector<ElementHistories> &history, double *f, const AuditPass *audit) {
-  Elements({tables, u, v, beta, time, f, 0, nullptr, nullptr, audit}, history);
+                  std::vector<ElementHistories> &history, double *f, const AuditPass *audit, bool single) {
+  Elements({tables, u, v, beta, time, f, 0, nullptr, nullptr, audit, single}, history);
 }
 
 void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, const double *v, double beta,

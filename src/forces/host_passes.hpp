@@ -47,9 +47,11 @@ struct SpringResults {
 };
 
 /// Adds internal forces of all elements to f [n_local][3], with beta != 0 those of damping too; histories are committed,
-/// and what breaks does so at the given time [s]. [in] audit: adds to its arrays; NULL: it is off.
+/// and what breaks does so at the given time [s]. [in] audit: adds to its arrays; NULL: it is off. single: arithmetic of
+/// elements in single precision, see SingleCheck.
 void HostElements(const Tables &tables, const double *u, const double *v, double beta, double time,
-                  std::vector<ElementHistories> &history, double *f, const AuditPass *audit = nullptr);
+                  std::vector<ElementHistories> &history, double *f, const AuditPass *audit = nullptr,
+                  bool single = false);
 /// The same without committing anything.
 void HostElementsObserve(const Tables &tables, int n_owned_cells, const double *u, const double *v, double beta,
                          const std::vector<ElementHistories> &history, double *f, ElementResults *results);

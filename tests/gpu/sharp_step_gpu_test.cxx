@@ -167,7 +167,7 @@ TEST(GpuSharpStep, LeavesHistoriesAlone) {
     {
       Operators operators(tables, static_cast<int>(s->mesh().n_owned));
       Product(operators.gpu, s->nodes(), VECSEQCUDA);
-      ASSERT_PETSC(CreateCudaBackend(tables, operators.device, 32, false, "reference", &backend));
+      ASSERT_PETSC(CreateCudaBackend(tables, operators.device, {false, "reference"}, &backend));
     }
     ASSERT_PETSC(backend->CreateVecs(&u, &v));
     const double *u_now, *v_now;

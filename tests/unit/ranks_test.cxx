@@ -1,5 +1,6 @@
 // Ranks do not matter, to the last bit: run with mpirun -n 2 and -n 3 (ctest does).
 #include "../support/quiet_scene.hpp"
+#include "../support/single_scenes.hpp"
 
 namespace cdem {
 namespace {
@@ -32,6 +33,11 @@ TEST(Ranks, DoNotMatterToQuietBoundaries) {
   for (const char *shape : {"hex", "tet", "wedge"})
     ExpectRanksDoNotMatter(QuietScene(shape, "-ts_max_steps 500 -device cpu"));
   ExpectRanksDoNotMatter(QuietScene("hex", "-damping_beta 2e-5 -ts_max_steps 500 -device cpu"));
+}
+
+TEST(Ranks, DoNotMatterInSinglePrecision) {
+  for (const std::string &scene : SingleScenes())
+    ExpectRanksDoNotMatter(scene + " -precision single -ts_max_steps 300 -device cpu");
 }
 
 TEST(Ranks, DoNotMatterWithOneCellEach) {
