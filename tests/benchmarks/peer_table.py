@@ -1,5 +1,5 @@
 """The peers beside the program: the assembled stiffness as a matrix of PETSc within it (-central_way assembled), on the CPU
-loops of scipy and C over such a matrix (peer.py), on the GPU PyTorch (peer_torch.py). Python's standard library only; what
+loops of scipy and C over such a matrix too (peer.py), on the GPU PyTorch (peer_torch.py). Python's standard library only; what
 the others need is looked for in the Pythons of this machine."""
 import json
 import shutil
@@ -58,18 +58,16 @@ def measure(machine, name, title, options, rock, repeat, summary_of):
     theirs = machine.scratch / "theirs"
     shutil.rmtree(theirs, ignore_errors=True)
     shutil.copytree(machine.out, theirs)
-    forms, version = [], "" if not cuda else "the stiffness as a matrix of PETSc within cdem is for CPUs"
-    if not cuda:
-        assembled = {"central_way": "assembled"}
-        within = ours(assembled)
-        summary_of(within)
-        if reader:
-            machine.run({**options, **assembled, "output_fields": "displacement"}, keep=True)
-            difference = float(python(reader, "-c", DIFFERENCE, machine.out, theirs))
-            for run in within:
-                run["difference"] = difference
-        forms = [form("cdem -central_way assembled (PETSc, seqbaij)", within, work)]
-        version = f"set-up of the matrix within cdem: {min(r['setup_device'] for r in within):.3g} s"
+    assembled = {"central_way": "assembled"}
+    within = ours(assembled)
+    summary_of(within)
+    if reader:
+        machine.run({**options, **assembled, "output_fields": "displacement"}, keep=True)
+        difference = float(python(reader, "-c", DIFFERENCE, machine.out, theirs))
+        for run in within:
+            run["difference"] = difference
+    forms = [form(f"cdem -central_way assembled (PETSc, {'seqaijcusparse' if cuda else 'seqbaij'})", within, work)]
+    version = f"set-up of the matrix within cdem: {min(r['setup_device'] for r in within):.3g} s"
     if outsider:
         scene = {**rock, "gravity": (0, 0, -9.81), "dt": summary["dt"], "steps": summary["steps"]}
         try:
