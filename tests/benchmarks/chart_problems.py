@@ -32,7 +32,7 @@ class Config:
 
 
 DEFAULT = "full integration, the default"
-STEP, FORM, SHAPE, FACES, REST, WAY = "step", "element form of hexahedra", "shape of the elements", "interfaces", "relaxation", "way"
+STEP, FORM, SHAPE, FACES, REST, WAY = "step", "element form of hexahedra", "shape of the elements", "interfaces", "relaxation", "way and precision"
 # One more line is one more line of the chart.
 CONFIGS = [
     Config(DEFAULT),
@@ -48,7 +48,9 @@ CONFIGS = [
     Config("every face a spring, factor 1,000", faces(1000), FACES, colour="C5", style="--"),
     Config("kinetic damping", {"relax_damping": "kinetic"}, REST, ("static",), colour="C6"),
     Config("balance to 1e-4 of forces", {"relax_ratio": 1e-4, "relax_kinetic": 1e-8}, REST, ("static",), colour="C6", style="--"),
-    Config("reference way", {"central_way": "reference"}, WAY, device="cuda", colour="C7"),
+    Config("reference way", {"central_way": "reference"}, WAY, colour="C7"),
+    Config("single precision", {"precision": "single"}, WAY, ("P", "S"), colour="C7", style="--"),
+    Config("single precision, balance to 1e-5", {"precision": "single", "relax_ratio": 1e-5}, WAY, ("static",), colour="C7", style="--"),
 ]
 
 
