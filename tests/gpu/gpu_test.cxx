@@ -20,8 +20,8 @@ void RecordedFigures(double u, double v, double broken) {
 
 void Compare(const std::string &scene, double bar) {
   // in the order of the global numbers: the partition may change from run to run
-  const std::string cuda = scene + " -device cuda" + (kExact ? " -deterministic" : "");
-  const SceneResult cpu = RunScene(scene + " -device cpu", PETSC_COMM_WORLD, true);
+  const std::string way = kExact ? " -deterministic" : "", cuda = scene + way + " -device cuda";
+  const SceneResult cpu = RunScene(scene + way + " -device cpu", PETSC_COMM_WORLD, true);
   const SceneResult gpu = RunScene(cuda, PETSC_COMM_WORLD, true);
   const SceneResult again = RunScene(cuda, PETSC_COMM_WORLD, true);
   PetscMPIInt ranks;
