@@ -26,7 +26,7 @@ def python_with(*modules, more=()):
     for python in (*more, sys.executable, "/usr/bin/python3", "python3"):
         try:
             if subprocess.run([python, "-c", test], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0:
-                return str(python)
+                return os.path.abspath(shutil.which(python) or python)  # it may be asked from another folder
         except OSError:
             pass
     return None
@@ -86,6 +86,7 @@ class CalculiX:
         self.folder, self.program = Path(folder), shutil.which(program or "ccx")
         if not self.program:
             raise Failed(f"CalculiX is missing; to get it: {self.get} (or --ccx PROGRAM)")
+        self.program = os.path.abspath(self.program)
         text = subprocess.run([self.program, "-v"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
         self.version = text.split("ersion")[-1].strip() or "of an unknown version"
 
