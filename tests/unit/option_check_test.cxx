@@ -31,7 +31,7 @@ TEST_F(OptionCheckTest, UnknownOnesAreNamedWithTheNearest) {
 }
 
 TEST_F(OptionCheckTest, UnknownFamiliesAreErrors) {
-  for (const char *name : {"-stage_a_solve", "-flow", "-boundary_absorb", "-precision"}) {
+  for (const char *name : {"-stage_a_solve", "-flow", "-boundary_absorb", "-accuracy"}) {
     ASSERT_EQ(PetscOptionsSetValue(nullptr, name, "1"), PETSC_SUCCESS);
     ExpectLeftRefused({(std::string("unknown option ") + name).c_str()});
     ASSERT_EQ(PetscOptionsClearValue(nullptr, name), PETSC_SUCCESS);
