@@ -48,6 +48,7 @@ CDEM_HD T ElasticEnergy(T lambda, T mu, const T stress[6]) {
 /// Adapter from an element form's points to a law.
 template <class Law, bool kObserve, class T>
 struct PointOf {
+  static constexpr bool kAlike = Law::kLinear && !kObserve;
   const T *param;
   ElementSums<T> *sums;
   ElementHistory<T> *history;

@@ -15,7 +15,7 @@ int FormNumber(Shape shape, const std::string &name) {
 template <class... Forms>
 static std::string NamesOfForms(LawList<Forms...>) {
   std::string all;
-  ((all += Forms::kAtCorners ? "" : std::string(all.empty() ? "" : ", ") + Forms::kName), ...);
+  ((all += Forms::kAtCorners || Forms::kAffine ? "" : std::string(all.empty() ? "" : ", ") + Forms::kName), ...);
   return all;
 }
 

@@ -51,15 +51,44 @@ std::vector<PetscInt> ActiveCells(const Mesh &mesh, const Nodes &nodes, const st
   return cells;
 }
 
-void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials,
-                   const std::vector<char> &removed, Tables *tables) {
+/// Which of some cells the form for parallelepipeds serves: one flag each; none where fewer than half of the cells that
+/// could are, since a table of few elements costs more than it gains. The same on all ranks (collective).
+PetscErrorCode FindAffine(const Mesh &mesh, const std::vector<Material> &materials, const std::vector<PetscInt> &cells,
+                          std::vector<char> *affine) {
+  PetscFunctionBeginUser;
+  affine->assign(cells.size(), 0);
+  double count[2] = {0, 0};  // those that it serves, those that could be
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const PetscInt c = cells[i];
+    const Material &m = materials[mesh.cell_region[c]];
+    bool may = false;
+    if (mesh.cell_shape[c] == Shape::kHex && m.element == HexAffine::kName)
+      BlockLaws::Visit(m.law, [&](auto law) { may = kFits<HexAffine, decltype(law)>; });
+    if (!may) continue;
+    double x[8][3];
+    CellCorners(mesh, c, x);
+    (*affine)[i] = HexAffine::Serves(x);
+    if (c < mesh.n_owned) count[0] += (*affine)[i], count[1] += 1;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 2, MPI_DOUBLE, MPI_SUM, mesh.comm));
+  if (2 * count[0] < count[1]) affine->assign(cells.size(), 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Material> &materials,
+                             const std::vector<char> &removed, Tables *tables) {
+  PetscFunctionBeginUser;
   const std::vector<PetscInt> active = ActiveCells(mesh, nodes, removed);
+  std::vector<char> affine;
+  PetscCall(FindAffine(mesh, materials, active, &affine));
   // one table for each shape, form and law that this rank has
   std::map<std::array<int, 3>, std::vector<int>> groups;
-  for (PetscInt c : active) {
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const PetscInt c = active[i];
     const Material &m = materials[mesh.cell_region[c]];
     const Shape shape = mesh.cell_shape[c];
-    groups[{static_cast<int>(shape), FormNumber(shape, m.element), m.law}].push_back(static_cast<int>(c));
+    const int form = affine[i] ? HexForms::Number<HexAffine>() : FormNumber(shape, m.element);
+    groups[{static_cast<int>(shape), form, m.law}].push_back(static_cast<int>(c));
   }
   for (auto &[key, cells] : groups) {
     ElementTable t;
@@ -90,6 +119,7 @@ void BuildElements(const Mesh &mesh, const Nodes &nodes, const std::vector<Mater
     tables->n_slots += static_cast<std::size_t>(t.corners) * t.n_pad;
     tables->elements.push_back(std::move(t));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /// Row-sum masses, summed in ascending global number of the cells. Nodes whose elements have all been removed have none.
@@ -240,7 +270,7 @@ PetscErrorCode BuildTables(const Mesh &mesh, const Nodes &nodes, const std::vect
   PetscCall(CheckOwnParams(mesh, materials));
   StartBlockParams(materials, tables);
   for (const Joint &j : joints) tables->joint_param.insert(tables->joint_param.end(), j.param, j.param + kMaxParams);
-  BuildElements(mesh, nodes, materials, removed, tables);
+  PetscCall(BuildElements(mesh, nodes, materials, removed, tables));
   PetscCall(BuildAveraging(mesh, materials, tables));
   PetscCall(BuildMass(mesh, nodes, materials, !removed.empty(), tables));
   for (const Material &m : materials) tables->releases = tables->releases || m.releases;

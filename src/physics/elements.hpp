@@ -1,6 +1,7 @@
 // The lists of element forms, by shape: a new form is its header and one name here.
 #pragma once
 #include "physics/element_hex.hpp"
+#include "physics/element_hex_affine.hpp"
 #include "physics/element_hex_bbar.hpp"
 #include "physics/element_hex_onepoint.hpp"
 #include "physics/element_hex_spring.hpp"
@@ -13,7 +14,7 @@ namespace cdem {
 
 using TetForms = LawList<TetFull, TetBbar>;
 using WedgeForms = LawList<WedgeFull, WedgeBbar>;
-using HexForms = LawList<HexFull, HexBbar, HexOnePoint, HexSpring>;
+using HexForms = LawList<HexFull, HexBbar, HexOnePoint, HexSpring, HexAffine>;
 
 /// Calls f(List{}) with the forms of a shape.
 template <class F>
@@ -37,9 +38,10 @@ void VisitElement(Shape shape, int form, F &&f) {
   VisitForms(shape, [&](auto forms) { decltype(forms)::Visit(form, f); });
 }
 
-/// A law can be computed in a form: laws of corners in forms of corners, the others in the other forms.
+/// A law can be computed in a form: laws of corners in forms of corners, the others in the other forms, only linear ones in
+/// forms for elements that are images of the cube by a linear map.
 template <class Form, class Law>
-inline constexpr bool kFits = Form::kAtCorners == Law::kAtCorners;
+inline constexpr bool kFits = Form::kAtCorners == Law::kAtCorners && (Law::kLinear || !Form::kAffine);
 
 /// Calls f(Form{}, Law{}) for those that fit together.
 template <class F>

@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace cdem {
@@ -102,6 +103,14 @@ struct JointLawDefaults {
 template <class... Laws>
 struct LawList {
   static constexpr int kCount = sizeof...(Laws);
+
+  /// The number of a law.
+  template <class Law>
+  static constexpr int Number() {
+    int number = -1, i = 0;
+    ((number = std::is_same_v<Law, Laws> ? i : number, ++i), ...);
+    return number;
+  }
 
   /// Calls f(Law{}) for the law of that number.
   template <class F>

@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -71,24 +72,29 @@ class Machine:
             "memory_gib": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30, 1),
             "gpu": gpu() if device == "cuda" else None, "load_at_start": os.getloadavg()[0]}
 
-    def run(self, options, keep=False, ranks=1):
+    def run(self, options, keep=False, ranks=1, out=None):
         """One run; with keep its results stay in self.out until the next run."""
-        self.out = self.scratch / "out"
-        shutil.rmtree(self.out, ignore_errors=True)
-        options = {**options, "device": self.device, "output": self.out,
-                   "output_overwrite": None}
+        self.out = out or self.scratch / "out"
+        folder = self.out
+        shutil.rmtree(folder, ignore_errors=True)
+        options = {**options, "device": self.device, "output": folder, "output_overwrite": None}
         try:
             front = ["mpirun", "-n", str(ranks), "--bind-to", "none"] if ranks > 1 else []
             _, wall, cpu, peak = spawn([*front, self.program, *arguments(options)])
-            summary = json.loads((self.out / "summary.json").read_text())
+            summary = json.loads((folder / "summary.json").read_text())
         except (OSError, ValueError) as error:
             raise Failed(str(error)) from error
         finally:
             if not keep:
-                shutil.rmtree(self.out, ignore_errors=True)
+                shutil.rmtree(folder, ignore_errors=True)
         at_work = sum(summary["wall"][part] for part in ("setup", "solve", "output"))
         return {**summary["wall"], "wall": wall, "cpu": cpu, "peak_bytes": peak,
                 "share": min(1.0, (cpu - ranks * self.start_cpu) / at_work / ranks), "summary": summary}
+
+    def run_at_once(self, options, n):
+        """n runs of their own at the same time."""
+        with ThreadPoolExecutor(n) as pool:
+            return list(pool.map(lambda i: self.run(options, out=self.scratch / f"out_{i}"), range(n)))
 
     def close(self):
         shutil.rmtree(self.scratch, ignore_errors=True)

@@ -101,7 +101,7 @@ TEST(SharpStep, OperatorSeesTheElasticPartOfEveryLaw) {
         SCOPED_TRACE(std::string(shape) + ", " + law + ", " + joint);
         Body body;
         body.Make(
-            std::string("-mesh box -mesh_box_cells 2,2,1 -mesh_box_size 2,2,1 -mesh_box_jitter 0.1 -mesh_box_shape ") +
+            std::string("-mesh box -mesh_box_cells 2,2,2 -mesh_box_size 2,2,2 -mesh_box_jitter 0.1 -mesh_box_shape ") +
             shape);
         body.SplitAll();
         Material &m = body.materials[0];
@@ -122,7 +122,7 @@ TEST(SharpStep, OperatorSeesTheElasticPartOfEveryLaw) {
   std::vector<double> strong;
   for (double strength : {1e30, 0.0}) {
     Body body;
-    body.Make("-mesh box -mesh_box_cells 2,2,1 -mesh_box_size 2,2,1 -mesh_box_jitter 0.1");
+    body.Make("-mesh box -mesh_box_cells 2,2,2 -mesh_box_size 2,2,2 -mesh_box_jitter 0.1");
     body.materials[0].element = "spring";
     body.materials[0].law = BlockLaws::Find("spring");
     body.materials[0].param[SpringBlock::kTension] = body.materials[0].param[SpringBlock::kCohesion] = strength;
